@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// Pinhole projection without distortion: u = fx x / z + cx (column), v = fy y / z + cy (row); all in pixels.
+/// The centre of the first pixel is (0, 0).
+struct PinholeIntrinsics
+{
+  double fx = 0.0;
+  double fy = 0.0;
+  double cx = 0.0;
+  double cy = 0.0;
+};
+
+/// A point cloud as three contiguous coordinate arrays, row-major where it is organized. Metres, in the frame that its
+/// owner knows; an organized cloud is expected in its optical frame (x right, y down, z forward).
+///
+/// A point is *measured* when the square of its distance from the origin is finite and above zero: NaN and infinite
+/// coordinates, zeros, and coordinates that overflow are "not measured". Those hold NaN in all three arrays.
+struct Cloud
+{
+  std::uint32_t width = 0;   ///< columns; the number of points where the cloud is not organized
+  std::uint32_t height = 0;  ///< rows; at most 1 where the cloud is not organized
+  std::vector<float> x, y, z;
+
+  /// Where the sensor stood, in the cloud's frame. Used only where the cloud has no pixels that reproject.
+  Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();
+
+  /// Projection of the camera that measured an organized cloud, where it is known; estimated from the points otherwise.
+  std::optional<PinholeIntrinsics> intrinsics;
+
+  bool organized() const { return width > 1 && height > 1; }
+  std::size_t size() const { return x.size(); }
+
+  /// Makes room for columns x rows points, none of them measured.
+  void reset(std::uint32_t columns, std::uint32_t rows)
+  {
+    width = columns;
+    height = rows;
+    const std::size_t points = std::size_t{columns} * rows;
+    const float nan = std::nanf("");
+    x.assign(points, nan);
+    y.assign(points, nan);
+    z.assign(points, nan);
+  }
+
+  /// Stores a point; one that does not count as measured is stored as NaN.
+  void set(std::size_t index, float px, float py, float pz)
+  {
+    const float squared_range = px * px + py * py + pz * pz;
+    const bool measured = std::isfinite(squared_range) && squared_range > 0.0F;
+    const float nan = std::nanf("");
+    x[index] = measured ? px : nan;
+    y[index] = measured ? py : nan;
+    z[index] = measured ? pz : nan;
+  }
+
+  bool measured(std::size_t index) const { return !std::isnan(x[index]); }
+  Eigen::Vector3f point(std::size_t index) const { return {x[index], y[index], z[index]}; }
+};
+
+}  // namespace grasp_affordances

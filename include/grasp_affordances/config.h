@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// The hand, reduced to what an enveloping grasp needs (paper, section II).
+struct HandGeometry
+{
+  double capture_radius = 0.026;    ///< m, radius of the largest circle inscribed in the capture region
+  double finger_thickness = 0.008;  ///< m, of the thickest finger or thumb in the opposition plane
+};
+
+/// Which points around a sample make up its neighborhood.
+enum class NeighborhoodKind
+{
+  radius,  ///< all points within a sphere
+  knn      ///< the k nearest points; the sphere's radius is then the distance to the k-th
+};
+
+/// How the axis of a neighborhood is estimated.
+enum class Estimator
+{
+  taubin,  ///< curvature axis of the Taubin quadric (paper, Algorithm 1)
+  pca,     ///< direction of largest variance of the points ("PCA variation")
+  normals  ///< direction in which the surface normals vary least ("Normals variation")
+};
+
+struct SamplingConfig
+{
+  int samples = 4000;      ///< neighborhoods drawn per cloud (n of Algorithm 1)
+  std::uint64_t seed = 1;  ///< every cloud is seeded with it afresh
+};
+
+struct NeighborhoodConfig
+{
+  NeighborhoodKind kind = NeighborhoodKind::radius;
+  double radius = 0.0;  ///< m, of the sphere; 0: the capture radius
+  int k = 500;          ///< size of a k nearest neighborhood
+  int min_points = 10;  ///< a neighborhood with fewer cannot determine a quadric
+};
+
+struct OcclusionConfig
+{
+  bool filter = true;
+  int max_points_in_front = 20;         ///< more measured points than this in front of a neighborhood reject it
+  double min_distance_in_front = 0.05;  ///< m, by which such a point is nearer than the neighborhood's closest point
+};
+
+struct EstimationConfig
+{
+  Estimator estimator = Estimator::taubin;
+  int curvature_points = 50;     ///< points of the neighborhood at which the quadric's curvature is taken
+  bool reject_concave = true;    ///< reject neighborhoods whose centre of curvature is on the sensor's side
+  double normals_radius = 0.03;  ///< m, support of the surface normals of the Normals variation
+};
+
+struct ShellConfig
+{
+  double radius_step = 0.001;        ///< m, by which the shell grows
+  double clearance_length = 0.03;    ///< m along the axis that must be clear
+  int gap_points_to_block = 5;       ///< this many points in the gap over the clearance length block it
+  int min_points_inside = 40;        ///< fewer points inside the shell are no surface
+  bool measure_length = true;        ///< measure the extent along the axis that is occupied inside and clear around
+  double min_length = 0.03;          ///< m, shortest measured extent that is accepted
+  double max_length = 0.12;          ///< m, extent beyond which nothing is measured
+  double length_resolution = 0.003;  ///< m, of the measured extent
+  double min_fill = 0.8;             ///< share of the inner radius that the surface reaches all along a measured extent
+  bool require_observed_gap = true;  ///< require that the sensor saw through a share of the gap
+  double min_observed_free = 0.3;    ///< that share
+  bool scale_with_density = true;  ///< thresholds that count points follow the density of points at the sample's range
+  double reference_spacing =
+      0.0015;  ///< m between neighboring pixels at the range where those thresholds hold as given
+};
+
+/// Everything that determines a result. The initialisers above are the `localizer` preset and the only place where its
+/// defaults stand; `config/localizer.yaml` is checked against them by a test.
+struct Config
+{
+  std::string preset = "localizer";  ///< name of the preset that the values started from
+  HandGeometry hand;
+  SamplingConfig sampling;
+  NeighborhoodConfig neighborhood;
+  OcclusionConfig occlusion;
+  EstimationConfig estimation;
+  ShellConfig shell;
+  int threads = 0;  ///< that work on a cloud; 0: one per core; no influence on the result
+};
+
+/// A parameter with an unknown name, an unreadable value or a value outside its range. what() names all three.
+class ParameterError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Names of the presets: "localizer" (the default) and "paper" (Algorithm 1 as printed).
+const std::vector<std::string>& presetNames();
+
+/// @throw ParameterError for a name that is not in presetNames().
+Config presetConfig(const std::string& name);
+
+/// @throw ParameterError for the first value outside its range.
+void validate(const Config& config);
+
+}  // namespace grasp_affordances

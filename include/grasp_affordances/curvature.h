@@ -1,0 +1,57 @@
+#pragma once
+
+#include "grasp_affordances/neighborhoods.h"
+#include "grasp_affordances/quadric.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// Principal curvature of larger magnitude at a point of a quadric.
+struct PrincipalCurvature
+{
+  double value = 0.0;  ///< in the inverse of the quadric's local unit; positive where the surface bends away from its
+                       ///< gradient's side (a sphere whose gradient points outwards is positive)
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit tangent about which the surface curves most: the cross
+                                                    ///< product of the normal with the direction of that curvature
+};
+
+/// From the shape operator: the Hessian restricted to the tangent plane, over the gradient's norm (paper, section
+/// III-B). `x` in local coordinates; the gradient there must not vanish. Where both curvatures are equal (a sphere) the
+/// axis is some tangent.
+PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vector3d& x);
+
+/// The larger principal curvature over a neighborhood.
+struct NeighborhoodCurvature
+{
+  double median = 0.0;                                ///< 1/m, of the magnitudes
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();    ///< unit, curvature axis at the median point
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, of the quadric at the median point, towards the sensor
+  bool concave = false;  ///< at most of the points the centre of curvature lies on the sensor's side
+};
+
+/// Working memory of medianCurvature, one per thread.
+struct CurvatureScratch
+{
+  struct Point
+  {
+    double magnitude;
+    Eigen::Vector3d x;  // local
+  };
+  std::vector<Point> points;
+};
+
+/// Puts evenly spaced points of the neighborhood (`count` of them, all where there are fewer; the first one drawn with
+/// `random_bits`) onto the quadric by one Newton step along the gradient, discards those that leave the neighborhood,
+/// and takes the median of the larger principal curvature's magnitude. Normals are turned towards `sensor` (m, cloud's
+/// frame) before signs are judged. Empty where no point is left.
+std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, const Neighborhood& neighborhood,
+                                                     const Eigen::Vector3d& sensor, std::size_t count,
+                                                     std::uint64_t random_bits, CurvatureScratch& scratch);
+
+}  // namespace grasp_affordances

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "grasp_affordances/range_image.h"
+#include "grasp_affordances/shell.h"
+
+#include <Eigen/Core>
+
+namespace grasp_affordances
+{
+
+/// Share of a shell's gap that the sensor saw through: of a lattice of points in the gap, fixed in number and relative
+/// to the shell (`axis` and `normal` orthonormal), those whose pixel measured a range beyond them. Points outside
+/// the image or on a pixel without a measurement are not seen as free. An object shadows the gap behind itself, so that
+/// also a free-standing one reaches little more than one half.
+double observedFreeShare(const RangeImage& image, const ShellSearchResult& shell, const Eigen::Vector3d& axis,
+                         const Eigen::Vector3d& normal, double thickness);
+
+}  // namespace grasp_affordances

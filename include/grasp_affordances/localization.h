@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// An enveloping grasp affordance: object surface within `inner_radius` of the axis, and around it a gap, as thick as a
+/// finger, that is clear of points. Metres, in the cloud's frame.
+struct Shell
+{
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< on the axis, in the middle of the length
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();     ///< unit; its component of largest magnitude is positive
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();   ///< unit, at right angles to the axis, towards the sensor's side
+  double inner_radius = 0.0;
+  double thickness = 0.0;      ///< of the gap: the finger's
+  double length = 0.0;         ///< measured extent along the axis, or the clearance length where none is measured
+  double curvature = 0.0;      ///< 1/m, median over the neighborhood; NaN where the estimator measures none
+  double observed_free = 0.0;  ///< share of the gap that the sensor saw through, in [0, 1]; NaN without a range image
+  std::uint32_t points_inside = 0;  ///< cloud points over the length, at most inner_radius from the axis
+  std::uint32_t points_in_gap = 0;  ///< cloud points over the length, beyond inner_radius by at most the thickness
+  std::uint32_t point_index = 0;    ///< row-major index of the sampled point in the cloud
+};
+
+/// Where a sample ended. Every sample ends in exactly one of these.
+enum class Outcome : std::uint8_t
+{
+  too_few_points,  ///< the neighborhood cannot determine a quadric
+  degenerate,      ///< no unique quadric or axis: exactly coplanar, collinear or coincident points
+  occluded,        ///< something nearer to the sensor hides part of it
+  low_curvature,   ///< median curvature below 1 / capture radius
+  concave,         ///< curved towards the sensor
+  no_shell,        ///< no radius up to the capture radius has a clear gap around enough points
+  too_short,       ///< a clear gap, but over less than the minimum length
+  unobserved_gap,  ///< a clear gap of which the sensor saw too little
+  shell            ///< a cylindrical shell
+};
+constexpr std::size_t kOutcomes = 9;
+
+/// Key of an outcome in `counts` ("too_few_points", ..., "shells").
+const char* outcomeName(Outcome outcome);
+
+/// Wall time for the whole cloud, and time per stage summed over the threads.
+struct StageTimes
+{
+  double total = 0.0;          ///< ms, from the cloud in memory to the result
+  double preparation = 0.0;    ///< ms, intrinsics, search structure, normals
+  double neighborhoods = 0.0;  ///< ms, summed over threads, as are the following
+  double occlusion = 0.0;
+  double fit = 0.0;
+  double shell = 0.0;
+};
+
+/// Result for one cloud.
+struct Localization
+{
+  std::vector<Shell> shells;                      ///< in the order of the samples
+  std::uint32_t points = 0;                       ///< measured points of the cloud
+  std::uint32_t sampled = 0;                      ///< samples drawn; the sum of `counts`
+  std::uint32_t threads = 0;                      ///< that worked on it
+  std::array<std::uint32_t, kOutcomes> counts{};  ///< indexed by Outcome
+  StageTimes milliseconds;
+  std::vector<std::string> warnings;  ///< one line each, about the cloud: what could not be used and why
+};
+
+}  // namespace grasp_affordances

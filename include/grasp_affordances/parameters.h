@@ -1,0 +1,116 @@
+#pragma once
+
+#include "grasp_affordances/config.h"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace grasp_affordances
+{
+
+/// Closed interval of allowed values.
+template <typename T>
+struct Range
+{
+  T min;
+  T max;
+};
+
+/// Name, range, unit and description of every field of a Config: the only list of parameters. YAML files, ROS
+/// parameters, validation and documentation all go through it.
+///
+/// Calls `visit(name, field, range, unit, description)` for numbers (field: double&, int& or std::uint64_t&) and
+/// `visit(name, field, description)` for bool&, NeighborhoodKind& and Estimator&. Names are paths:
+/// "hand/capture_radius" is the key capture_radius in the YAML map hand, and the private ROS parameter
+/// ~hand/capture_radius.
+template <typename ConfigT, typename Visitor>
+void visitParameters(ConfigT& c, Visitor&& visit)
+{
+  using Real = Range<double>;
+  using Count = Range<int>;
+  visit("hand/capture_radius", c.hand.capture_radius, Real{0.002, 0.5}, "m",
+        "radius of the largest circle inscribed in the hand's capture region");
+  visit("hand/finger_thickness", c.hand.finger_thickness, Real{0.001, 0.1}, "m",
+        "thickness of the thickest finger: the gap that must be clear");
+
+  visit("sampling/samples", c.sampling.samples, Count{1, 10000000}, "", "neighborhoods drawn per cloud");
+  visit("sampling/seed", c.sampling.seed, Range<std::uint64_t>{0, (std::uint64_t{1} << 53) - 1}, "",
+        "of the random draws, the same for every cloud");
+
+  visit("neighborhood/kind", c.neighborhood.kind, "all points within a sphere, or the k nearest");
+  visit("neighborhood/radius", c.neighborhood.radius, Real{0.0, 0.5}, "m", "of the sphere; 0: the capture radius");
+  visit("neighborhood/k", c.neighborhood.k, Count{10, 100000}, "", "size of a k nearest neighborhood");
+  visit("neighborhood/min_points", c.neighborhood.min_points, Count{10, 100000}, "",
+        "a neighborhood with fewer is not fitted");
+
+  visit("occlusion/filter", c.occlusion.filter, "reject neighborhoods that something nearer hides in part");
+  visit("occlusion/max_points_in_front", c.occlusion.max_points_in_front, Count{0, 1000000}, "",
+        "more nearer points than this, seen in the direction of the neighborhood's sphere, reject it");
+  visit("occlusion/min_distance_in_front", c.occlusion.min_distance_in_front, Real{0.0, 10.0}, "m",
+        "by which such a point is nearer than the closest point of the neighborhood");
+
+  visit("estimation/estimator", c.estimation.estimator, "of the axis");
+  visit("estimation/curvature_points", c.estimation.curvature_points, Count{1, 10000}, "",
+        "points of the neighborhood at which the quadric's curvature is taken");
+  visit("estimation/reject_concave", c.estimation.reject_concave,
+        "reject neighborhoods whose centre of curvature is on the sensor's side");
+  visit("estimation/normals_radius", c.estimation.normals_radius, Real{0.001, 0.5}, "m",
+        "support of the surface normals of the Normals variation");
+
+  visit("shell/radius_step", c.shell.radius_step, Real{0.0001, 0.01}, "m", "by which the shell grows");
+  visit("shell/clearance_length", c.shell.clearance_length, Real{0.001, 0.5}, "m",
+        "along the axis, over which the gap is searched for points");
+  visit("shell/gap_points_to_block", c.shell.gap_points_to_block, Count{1, 1000000}, "",
+        "this many points in the gap over the clearance length block it");
+  visit("shell/min_points_inside", c.shell.min_points_inside, Count{1, 1000000}, "",
+        "fewer points inside the shell over the clearance length are no surface");
+  visit("shell/measure_length", c.shell.measure_length,
+        "measure the extent along the axis that is occupied inside and clear around");
+  visit("shell/min_length", c.shell.min_length, Real{0.0, 0.5}, "m", "shortest measured extent that is accepted");
+  visit("shell/max_length", c.shell.max_length, Real{0.001, 1.0}, "m", "extent beyond which nothing is measured");
+  visit("shell/length_resolution", c.shell.length_resolution, Real{0.0005, 0.05}, "m", "of the measured extent");
+  visit("shell/min_fill", c.shell.min_fill, Real{0.0, 0.99}, "",
+        "share of the inner radius that the surface reaches all along a measured extent");
+  visit("shell/require_observed_gap", c.shell.require_observed_gap,
+        "require that the sensor saw through a share of the gap");
+  visit("shell/min_observed_free", c.shell.min_observed_free, Real{0.0, 1.0}, "", "that share");
+  visit("shell/scale_with_density", c.shell.scale_with_density,
+        "thresholds that count points follow the density of points at the sample's range");
+  visit("shell/reference_spacing", c.shell.reference_spacing, Real{0.0001, 0.1}, "m",
+        "distance between neighboring pixels' points at which those thresholds hold as given");
+
+  visit("threads", c.threads, Count{0, 256}, "", "that work on a cloud; 0: one per core; no influence on the result");
+}
+
+/// Words that stand for the values of an enumeration, in the order of its values.
+template <typename Enum>
+const std::vector<std::string>& enumWords();
+template <>
+const std::vector<std::string>& enumWords<NeighborhoodKind>();  // radius, knn
+template <>
+const std::vector<std::string>& enumWords<Estimator>();  // taubin, pca, normals
+
+template <typename Enum>
+const std::string& enumWord(Enum value)
+{
+  return enumWords<Enum>()[static_cast<std::size_t>(value)];
+}
+
+/// @throw ParameterError, with `name`, for a word that stands for no value.
+template <typename Enum>
+Enum enumFromWord(const std::string& name, const std::string& word);
+template <>
+NeighborhoodKind enumFromWord<NeighborhoodKind>(const std::string& name, const std::string& word);
+template <>
+Estimator enumFromWord<Estimator>(const std::string& name, const std::string& word);
+
+/// Reads parameters from YAML text over the preset that its key `preset` names, else over `base`.
+/// Keys that are missing keep their value; the values are validated.
+/// @throw ParameterError for text that is no YAML map, an unknown key, a value of the wrong type or outside its range.
+Config configFromYaml(const std::string& text, const Config& base);
+
+/// As configFromYaml, from a file. @throw ParameterError also for a file that cannot be read.
+Config configFromYamlFile(const std::string& path, const Config& base);
+
+}  // namespace grasp_affordances

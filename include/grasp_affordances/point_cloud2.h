@@ -1,0 +1,76 @@
+#pragma once
+
+#include "grasp_affordances/cloud.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+
+namespace grasp_affordances
+{
+
+/// A cloud, or a file of clouds, that cannot be read. what() is one line with the reason.
+class CloudError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Where a PointCloud2 keeps its coordinates, as it claims; nothing in here has been checked.
+struct PointCloud2Layout
+{
+  struct Coordinate
+  {
+    bool present = false;
+    std::uint8_t datatype = 0;  ///< as in sensor_msgs/PointField
+    std::uint32_t count = 0;
+    std::uint32_t offset = 0;  ///< bytes from the start of the point
+  };
+
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t point_step = 0;  ///< bytes
+  std::uint32_t row_step = 0;    ///< bytes
+  bool big_endian = false;
+  Coordinate x, y, z;
+  const std::uint8_t* data = nullptr;
+  std::size_t data_size = 0;  ///< bytes
+};
+
+/// Copies the points; points that are not measured become NaN. Rows may be padded and coordinates unaligned.
+/// @throw CloudError for a layout that contradicts itself or has no x, y, z of FLOAT32 or FLOAT64; before anything is
+/// allocated, and without touching the cloud.
+void cloudFromLayout(const PointCloud2Layout& layout, Cloud& cloud);
+
+/// Reads the points of a sensor_msgs::PointCloud2 or a pcl::PCLPointCloud2 into a cloud, whose sensor origin and
+/// intrinsics stay as they are. Allocates nothing when the cloud has held as many points before.
+/// @throw CloudError as cloudFromLayout.
+template <class PointCloud2>
+void cloudFromPointCloud2(const PointCloud2& message, Cloud& cloud)
+{
+  const auto coordinate = [&message](const char* name) {
+    PointCloud2Layout::Coordinate found;
+    for (const auto& field : message.fields) {
+      if (field.name == name) {
+        found = {true, field.datatype, static_cast<std::uint32_t>(field.count),
+                 static_cast<std::uint32_t>(field.offset)};
+        break;
+      }
+    }
+    return found;
+  };
+  PointCloud2Layout layout;
+  layout.width = message.width;
+  layout.height = message.height;
+  layout.point_step = message.point_step;
+  layout.row_step = message.row_step;
+  layout.big_endian = message.is_bigendian != 0;
+  layout.x = coordinate("x");
+  layout.y = coordinate("y");
+  layout.z = coordinate("z");
+  layout.data = message.data.data();
+  layout.data_size = message.data.size();
+  cloudFromLayout(layout, cloud);
+}
+
+}  // namespace grasp_affordances

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "grasp_affordances/neighborhoods.h"
+#include "grasp_affordances/normals.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace grasp_affordances
+{
+
+/// The PCA variation: the unit eigenvector of the largest eigenvalue of the points' covariance (paper, section V-A).
+/// Empty where the two largest eigenvalues coincide to rounding: the points have no longest direction.
+std::optional<Eigen::Vector3d> pointsAxis(const Neighborhood& neighborhood);
+
+/// The Normals variation: the unit eigenvector of the smallest eigenvalue of the sum of n n' over the neighborhood's
+/// surface normals (paper, section V-A). Empty where the two smallest eigenvalues coincide to rounding: on a plane the
+/// normals single out no axis.
+std::optional<Eigen::Vector3d> normalsAxis(const Neighborhood& neighborhood, const Normals& normals);
+
+}  // namespace grasp_affordances

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "grasp_affordances/neighborhoods.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace grasp_affordances
+{
+
+/// Sums over a neighborhood of the 35 monomials x^i y^j z^k of degree at most 4, in coordinates that are centred on the
+/// neighborhood and scaled by its radius. All that the Taubin fit and the principal axis need to know of the points.
+class Moments
+{
+public:
+  static constexpr int kCount = 35;
+
+  /// One pass over the points, in double precision. The neighborhood's radius must be above zero.
+  explicit Moments(const Neighborhood& neighborhood);
+
+  /// The sum of x^i y^j z^k; i + j + k <= 4. sum(0, 0, 0) is the number of points.
+  double sum(int i, int j, int k) const;
+
+  double operator[](int index) const { return sums_[index]; }
+
+private:
+  std::array<double, kCount> sums_{};
+};
+
+/// A quadratic surface x'Ax + b'x + c = 0 (paper, equation 1), where x = (p - origin) / scale are the coordinates local
+/// to the neighborhood that it was fitted to: all coefficients and values are without unit.
+struct Quadric
+{
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  ///< symmetric
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  double c = 0.0;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m, in the cloud's frame
+  double scale = 1.0;                                ///< m
+
+  double value(const Eigen::Vector3d& x) const { return x.dot(A * x + b) + c; }
+  Eigen::Vector3d gradient(const Eigen::Vector3d& x) const { return 2.0 * (A * x) + b; }
+  Eigen::Matrix3d hessian() const { return 2.0 * A; }
+
+  /// Local coordinates of a point of the cloud, and back.
+  Eigen::Vector3d toLocal(const Eigen::Vector3d& p) const { return (p - origin) / scale; }
+  Eigen::Vector3d toCloud(const Eigen::Vector3d& x) const { return origin + scale * x; }
+};
+
+struct TaubinFit
+{
+  Quadric quadric;
+  /// Smallest eigenvalue: mean of f^2 over mean of |grad f|^2. Its square root times the quadric's scale approximates
+  /// the RMS distance (m) of the points from the surface.
+  double residual = 0.0;
+};
+
+/// Taubin's fit (paper, section III-A): minimises the sum of f^2 over the points with the sum of |grad f|^2 fixed: the
+/// generalized eigenproblem (M - lambda N) c = 0, smallest eigenvalue. The constant term, which has no gradient, is
+/// eliminated by its Schur complement, which leaves 9 x 9 matrices.
+///
+/// Empty where the points determine no unique quadric. Points within 1e-5 of the radius of a common plane make N
+/// singular (their plane times any other plane fits); so do points on a line, coincident points and fewer than nine.
+std::optional<TaubinFit> fitTaubin(const Neighborhood& neighborhood);
+
+/// The same from moments of the neighborhood with the given centre and radius.
+std::optional<TaubinFit> fitTaubin(const Moments& moments, const Eigen::Vector3d& origin, double scale);
+
+}  // namespace grasp_affordances

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "grasp_affordances/cloud.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace grasp_affordances
+{
+
+/// Half-open rectangle of pixels: columns [u_begin, u_end), rows [v_begin, v_end).
+struct PixelWindow
+{
+  int u_begin, u_end;
+  int v_begin, v_end;
+};
+
+/// How far a cloud's points fall from their own pixels under some intrinsics.
+struct ReprojectionFit
+{
+  PinholeIntrinsics intrinsics;
+  double max_residual = 0.0;  ///< pixels, the larger of the column's and the row's
+};
+
+/// Least-squares intrinsics of an organized cloud: regression of the pixel coordinates on x/z and y/z.
+/// Empty where they are undetermined (no points, points of one column or row only) or where a point has z <= 0.
+std::optional<ReprojectionFit> estimateIntrinsics(const Cloud& cloud);
+
+/// The residual of given intrinsics. Empty where a point has z <= 0.
+std::optional<ReprojectionFit> checkIntrinsics(const Cloud& cloud, const PinholeIntrinsics& intrinsics);
+
+/// An organized cloud seen as what it was measured as: a range image, whose pixels its points reproject to. Refers to
+/// the cloud, which must outlive it. Safe to read from many threads.
+class RangeImage
+{
+public:
+  /// Points further than this (pixels) from their pixel show that the cloud is not in its optical frame.
+  static constexpr double kMaxResidual = 4.0;
+
+  /// Empty where the cloud is organized no more, or its points do not reproject; `warning` then says why. Intrinsics
+  /// that the cloud carries and that do not fit are replaced by estimated ones, with a warning.
+  static std::optional<RangeImage> create(const Cloud& cloud, std::string& warning);
+
+  const Cloud& cloud() const { return *cloud_; }
+  const PinholeIntrinsics& intrinsics() const { return intrinsics_; }
+
+  /// The pixels that a sphere projects to: contains every measured point within the sphere.
+  PixelWindow window(const Eigen::Vector3d& center, double radius) const;
+
+  /// Index of the pixel that a point (m) falls on; empty outside the image and behind the sensor.
+  std::optional<std::size_t> pixel(const Eigen::Vector3d& point) const;
+
+  /// Distance (m) between the points of neighboring pixels on a surface facing the sensor, at depth z (m).
+  double spacing(double z) const;
+
+private:
+  RangeImage(const Cloud& cloud, const ReprojectionFit& fit);
+
+  const Cloud* cloud_;
+  PinholeIntrinsics intrinsics_;
+  double margin_;  // pixels, by which a window is grown so that it holds points off their pixel
+};
+
+}  // namespace grasp_affordances

@@ -1,0 +1,37 @@
+# Sourced by demo and test: installs what is missing, builds what is stale.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build
+
+# Debian's python3 is the one that has ROS; another one may come first on the PATH.
+export PATH=/usr/bin:$PATH
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+install_packages() {
+  local missing=() package
+  for package in $(grep -v '^#' "$root/scripts/packages"); do
+    if ! dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed; then
+      missing+=("$package")
+    fi
+  done
+  if [ ${#missing[@]} -eq 0 ]; then return; fi
+  echo "Installing ${#missing[@]} Debian packages: ${missing[*]}"
+  as_root apt-get update -qq
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# build_targets TARGET...: in build/, the devel space in build/devel.
+build_targets() {
+  local log=$build/configure.log
+  mkdir -p "$build"
+  echo "Building in ${build/#$PWD\//}"
+  if ! cmake -S "$root" -B "$build" -DCATKIN_DEVEL_PREFIX="$build/devel" -DCATKIN_ENABLE_TESTING=ON \
+      -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$log" 2>&1; then
+    cat "$log" >&2
+    return 1
+  fi
+  cmake --build "$build" --parallel "$(nproc)" --target "$@"
+}

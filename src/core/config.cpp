@@ -1,0 +1,122 @@
+#include "grasp_affordances/config.h"
+
+#include "grasp_affordances/parameters.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+/// Refuses what lies outside its range. NaN lies outside every range.
+class RangeCheck
+{
+public:
+  template <typename T>
+  void operator()(const char* name, const T& value, const Range<T>& range, const char* unit, const char*) const
+  {
+    if (!(value >= range.min && value <= range.max)) {
+      std::ostringstream message;
+      message << name << ": " << value << " is outside the allowed range [" << range.min << ", " << range.max << "]"
+              << (*unit != '\0' ? " " : "") << unit;
+      throw ParameterError(message.str());
+    }
+  }
+
+  template <typename T>
+  void operator()(const char*, const T&, const char*) const
+  {
+  }
+};
+
+std::string listed(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  return text;
+}
+
+template <typename Enum>
+Enum findWord(const std::string& name, const std::string& word)
+{
+  const std::vector<std::string>& words = enumWords<Enum>();
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) {
+    throw ParameterError(name + ": '" + word + "' is none of: " + listed(words));
+  }
+  return static_cast<Enum>(found - words.begin());
+}
+
+Config paperConfig()
+{
+  Config config;
+  config.preset = "paper";
+  config.occlusion.min_distance_in_front = 0.0;
+  config.estimation.reject_concave = false;
+  config.shell.measure_length = false;
+  config.shell.require_observed_gap = false;
+  config.shell.scale_with_density = false;
+  return config;
+}
+
+}  // namespace
+
+const std::vector<std::string>& presetNames()
+{
+  static const std::vector<std::string> names{"localizer", "paper"};
+  return names;
+}
+
+Config presetConfig(const std::string& name)
+{
+  if (name == "localizer") {
+    return Config();
+  }
+  if (name == "paper") {
+    return paperConfig();
+  }
+  throw ParameterError("preset: '" + name + "' is none of: " + listed(presetNames()));
+}
+
+void validate(const Config& config)
+{
+  visitParameters(config, RangeCheck());
+  if (config.shell.measure_length && config.shell.max_length < config.shell.min_length) {
+    std::ostringstream message;
+    message << "shell/max_length: " << config.shell.max_length << " is below shell/min_length, "
+            << config.shell.min_length << " m";
+    throw ParameterError(message.str());
+  }
+}
+
+template <>
+const std::vector<std::string>& enumWords<NeighborhoodKind>()
+{
+  static const std::vector<std::string> words{"radius", "knn"};
+  return words;
+}
+
+template <>
+const std::vector<std::string>& enumWords<Estimator>()
+{
+  static const std::vector<std::string> words{"taubin", "pca", "normals"};
+  return words;
+}
+
+template <>
+NeighborhoodKind enumFromWord<NeighborhoodKind>(const std::string& name, const std::string& word)
+{
+  return findWord<NeighborhoodKind>(name, word);
+}
+
+template <>
+Estimator enumFromWord<Estimator>(const std::string& name, const std::string& word)
+{
+  return findWord<Estimator>(name, word);
+}
+
+}  // namespace grasp_affordances

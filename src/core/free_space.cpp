@@ -1,0 +1,33 @@
+#include "grasp_affordances/free_space.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace grasp_affordances
+{
+
+double observedFreeShare(const RangeImage& image, const ShellSearchResult& shell, const Eigen::Vector3d& axis,
+                         const Eigen::Vector3d& normal, double thickness)
+{
+  constexpr int kAlong = 6, kAround = 24, kRadial = 2;
+  const Eigen::Vector3d side = axis.cross(normal);
+  int free = 0;
+  for (int a = 0; a < kAlong; ++a) {
+    const double along = shell.length * ((a + 0.5) / kAlong - 0.5);
+    for (int b = 0; b < kAround; ++b) {
+      const double angle = 2 * M_PI * (b + 0.5) / kAround;
+      const Eigen::Vector3d radial = std::cos(angle) * normal + std::sin(angle) * side;
+      for (int c = 0; c < kRadial; ++c) {
+        const double distance = shell.inner_radius + thickness * (c + 0.5) / kRadial;
+        const Eigen::Vector3d point = shell.centroid + along * axis + distance * radial;
+        const auto pixel = image.pixel(point);
+        // False for NaN: nothing was measured there.
+        free += pixel && image.cloud().point(*pixel).cast<double>().squaredNorm() > point.squaredNorm() ? 1 : 0;
+      }
+    }
+  }
+  return static_cast<double>(free) / (kAlong * kAround * kRadial);
+}
+
+}  // namespace grasp_affordances

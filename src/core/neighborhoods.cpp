@@ -1,0 +1,189 @@
+#include "grasp_affordances/neighborhoods.h"
+
+#include <pcl/kdtree/kdtree_flann.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+/// The one distance that decides what is inside a sphere.
+inline float squaredDistance(float dx, float dy, float dz)
+{
+  return dx * dx + dy * dy + dz * dz;
+}
+
+class WindowSearch : public NeighborhoodSearch
+{
+public:
+  WindowSearch(const RangeImage& image, std::size_t points) : image_(image), points_(points) {}
+
+  void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const override
+  {
+    const Cloud& cloud = image_.cloud();
+    result.clear(center, radius);
+    const PixelWindow window = image_.window(center.cast<double>(), radius);
+    for (int v = window.v_begin; v < window.v_end; ++v) {
+      const std::size_t row = static_cast<std::size_t>(v) * cloud.width;
+      result.appendRange(cloud, row + window.u_begin, row + window.u_end);
+    }
+  }
+
+  void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override
+  {
+    k = std::min(k, points_);
+    // A disc of k pixels on a surface that faces the sensor, and a little more for one that does not.
+    double radius = 1.3 * std::sqrt(k / M_PI) * image_.spacing(center.z());
+    do {
+      withinRadius(center, static_cast<float>(radius), result);
+      radius *= 2.0;
+    } while (result.size() < k);
+    result.keepNearest(k);
+  }
+
+private:
+  const RangeImage& image_;
+  std::size_t points_;
+};
+
+/// The tree computes its own distances: it is asked for slightly more, and the shared distance decides.
+class TreeSearch : public NeighborhoodSearch
+{
+public:
+  explicit TreeSearch(const Cloud& cloud) : cloud_(cloud)
+  {
+    const pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (cloud.measured(i)) {
+        points->push_back({cloud.x[i], cloud.y[i], cloud.z[i]});
+        index_.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+    tree_.setSortedResults(false);
+    if (!index_.empty()) {
+      tree_.setInputCloud(points);
+    }
+  }
+
+  void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const override
+  {
+    result.clear(center, radius);
+    if (index_.empty()) {
+      return;
+    }
+    static thread_local std::vector<int> found;
+    static thread_local std::vector<float> squared_distances;
+    tree_.radiusSearch(toPcl(center), kInflation * radius, found, squared_distances);
+    std::sort(found.begin(), found.end());
+    for (const int i : found) {
+      result.appendPoint(cloud_, index_[i]);
+    }
+  }
+
+  void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override
+  {
+    k = std::min(k, index_.size());
+    if (k == 0) {
+      result.clear(center, 0.0F);
+      return;
+    }
+    static thread_local std::vector<int> found;
+    static thread_local std::vector<float> squared_distances;
+    tree_.nearestKSearch(toPcl(center), static_cast<int>(k), found, squared_distances);
+    const float furthest = *std::max_element(squared_distances.begin(), squared_distances.end());
+    withinRadius(center, static_cast<float>(kInflation * std::sqrt(furthest)), result);
+    result.keepNearest(k);
+  }
+
+private:
+  static constexpr double kInflation = 1.0001;
+
+  static pcl::PointXYZ toPcl(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
+
+  const Cloud& cloud_;
+  std::vector<std::uint32_t> index_;  // of the tree's points in the cloud
+  pcl::KdTreeFLANN<pcl::PointXYZ> tree_;
+};
+
+}  // namespace
+
+void Neighborhood::clear(const Eigen::Vector3f& new_center, float new_radius)
+{
+  center = new_center;
+  radius = new_radius;
+  size_ = 0;
+}
+
+void Neighborhood::appendRange(const Cloud& cloud, std::size_t begin, std::size_t end)
+{
+  const std::size_t needed = size_ + (end - begin);
+  if (needed > x_.size()) {
+    const std::size_t room = std::max(needed, 2 * x_.size());
+    x_.resize(room);
+    y_.resize(room);
+    z_.resize(room);
+    index_.resize(room);
+  }
+  // Local copies: the compiler cannot know that the stores below leave the members alone.
+  const float cx = center.x(), cy = center.y(), cz = center.z();
+  const float squared_radius = radius * radius;
+  const float *from_x = cloud.x.data(), *from_y = cloud.y.data(), *from_z = cloud.z.data();
+  float *to_x = x_.data(), *to_y = y_.data(), *to_z = z_.data();
+  std::uint32_t* to_index = index_.data();
+  std::size_t size = size_;
+  for (std::size_t i = begin; i < end; ++i) {
+    const float px = from_x[i], py = from_y[i], pz = from_z[i];
+    to_x[size] = px;
+    to_y[size] = py;
+    to_z[size] = pz;
+    to_index[size] = static_cast<std::uint32_t>(i);
+    // False for NaN: what was not measured is in no sphere.
+    size += squaredDistance(px - cx, py - cy, pz - cz) <= squared_radius ? 1 : 0;
+  }
+  size_ = size;
+}
+
+void Neighborhood::keepNearest(std::size_t k)
+{
+  order_.clear();
+  for (std::size_t i = 0; i < size_; ++i) {
+    order_.emplace_back(squaredDistance(x_[i] - center.x(), y_[i] - center.y(), z_[i] - center.z()), index_[i]);
+  }
+  if (k == 0) {
+    radius = 0.0F;
+    size_ = 0;
+    return;
+  }
+  std::nth_element(order_.begin(), order_.begin() + (k - 1), order_.end());
+  const std::pair<float, std::uint32_t> last = order_[k - 1];
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < size_; ++i) {
+    const float squared = squaredDistance(x_[i] - center.x(), y_[i] - center.y(), z_[i] - center.z());
+    if (std::make_pair(squared, index_[i]) <= last) {
+      x_[kept] = x_[i];
+      y_[kept] = y_[i];
+      z_[kept] = z_[i];
+      index_[kept] = index_[i];
+      ++kept;
+    }
+  }
+  size_ = kept;
+  radius = std::sqrt(last.first);
+}
+
+std::unique_ptr<NeighborhoodSearch> makeWindowSearch(const RangeImage& image, std::size_t points)
+{
+  return std::make_unique<WindowSearch>(image, points);
+}
+
+std::unique_ptr<NeighborhoodSearch> makeTreeSearch(const Cloud& cloud)
+{
+  return std::make_unique<TreeSearch>(cloud);
+}
+
+}  // namespace grasp_affordances

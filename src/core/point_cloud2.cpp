@@ -1,0 +1,109 @@
+#include "grasp_affordances/point_cloud2.h"
+
+#include <cstring>
+#include <string>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+using Coordinate = PointCloud2Layout::Coordinate;
+
+constexpr std::uint8_t kFloat32 = 7;  // sensor_msgs/PointField
+constexpr std::uint8_t kFloat64 = 8;
+
+std::string bytes(std::uint64_t count)
+{
+  return std::to_string(count) + " bytes";
+}
+
+void checkCoordinate(const char* name, const Coordinate& coordinate, std::uint32_t point_step)
+{
+  const std::string field = std::string("field ") + name;
+  if (!coordinate.present) {
+    throw CloudError("the cloud has no " + field);
+  }
+  if (coordinate.datatype != kFloat32 && coordinate.datatype != kFloat64) {
+    throw CloudError(field + " has datatype " + std::to_string(coordinate.datatype) + ", not FLOAT32 or FLOAT64");
+  }
+  if (coordinate.count > 1) {  // some drivers write 0 for 1
+    throw CloudError(field + " has " + std::to_string(coordinate.count) + " values per point, not 1");
+  }
+  const std::uint64_t size = coordinate.datatype == kFloat32 ? sizeof(float) : sizeof(double);
+  if (coordinate.offset + size > point_step) {
+    throw CloudError(field + " (offset " + std::to_string(coordinate.offset) + ", " + bytes(size) +
+                     ") lies outside the point_step of " + bytes(point_step));
+  }
+}
+
+void check(const PointCloud2Layout& layout)
+{
+  checkCoordinate("x", layout.x, layout.point_step);
+  checkCoordinate("y", layout.y, layout.point_step);
+  checkCoordinate("z", layout.z, layout.point_step);
+  if (layout.big_endian) {
+    throw CloudError("the cloud's data is big-endian, which is not supported");
+  }
+  const std::uint64_t row = std::uint64_t{layout.width} * layout.point_step;
+  if (layout.row_step < row) {
+    throw CloudError("row_step of " + bytes(layout.row_step) + " is less than width " + std::to_string(layout.width) +
+                     " times point_step " + std::to_string(layout.point_step));
+  }
+  const std::uint64_t size = std::uint64_t{layout.height} * layout.row_step;
+  if (layout.data_size != size) {
+    throw CloudError("data holds " + bytes(layout.data_size) + ", not height " + std::to_string(layout.height) +
+                     " times row_step " + std::to_string(layout.row_step));
+  }
+}
+
+template <typename T>
+float read(const std::uint8_t* address)
+{
+  T value;
+  std::memcpy(&value, address, sizeof(T));
+  return static_cast<float>(value);
+}
+
+float readEither(const std::uint8_t* point, const Coordinate& coordinate)
+{
+  const std::uint8_t* address = point + coordinate.offset;
+  return coordinate.datatype == kFloat32 ? read<float>(address) : read<double>(address);
+}
+
+template <typename ReadCoordinate>
+void copyPoints(const PointCloud2Layout& layout, Cloud& cloud, ReadCoordinate&& readCoordinate)
+{
+  std::size_t i = 0;
+  for (std::uint32_t row = 0; row < layout.height; ++row) {
+    const std::uint8_t* point = layout.data + std::size_t{row} * layout.row_step;
+    for (std::uint32_t column = 0; column < layout.width; ++column, ++i, point += layout.point_step) {
+      cloud.set(i, readCoordinate(point, layout.x), readCoordinate(point, layout.y), readCoordinate(point, layout.z));
+    }
+  }
+}
+
+}  // namespace
+
+void cloudFromLayout(const PointCloud2Layout& layout, Cloud& cloud)
+{
+  if (layout.width == 0 || layout.height == 0) {
+    cloud.reset(0, 0);
+    return;
+  }
+  check(layout);
+  const std::size_t points = std::size_t{layout.width} * layout.height;
+  cloud.width = layout.width;
+  cloud.height = layout.height;
+  cloud.x.resize(points);
+  cloud.y.resize(points);
+  cloud.z.resize(points);
+  if (layout.x.datatype == kFloat32 && layout.y.datatype == kFloat32 && layout.z.datatype == kFloat32) {
+    copyPoints(layout, cloud,
+               [](const std::uint8_t* point, const Coordinate& c) { return read<float>(point + c.offset); });
+  } else {
+    copyPoints(layout, cloud, readEither);
+  }
+}
+
+}  // namespace grasp_affordances

@@ -1,0 +1,136 @@
+#include "nodelets/conversions.h"
+
+#include "grasp_affordances/parameters.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+template <typename Xyz>
+Xyz xyzMessage(const Eigen::Vector3d& v)
+{
+  Xyz message;
+  message.x = v.x();
+  message.y = v.y();
+  message.z = v.z();
+  return message;
+}
+
+CylindricalShell shellMessage(const Shell& shell)
+{
+  CylindricalShell message;
+  message.pose = poseMessage(shell);
+  message.centroid = xyzMessage<geometry_msgs::Point>(shell.centroid);
+  message.axis = xyzMessage<geometry_msgs::Vector3>(shell.axis);
+  message.normal = xyzMessage<geometry_msgs::Vector3>(shell.normal);
+  message.inner_radius = shell.inner_radius;
+  message.thickness = shell.thickness;
+  message.length = shell.length;
+  message.curvature = shell.curvature;
+  message.points_inside = shell.points_inside;
+  message.points_in_gap = shell.points_in_gap;
+  message.observed_free = shell.observed_free;
+  message.point_index = shell.point_index;
+  return message;
+}
+
+std::string sizeText(std::uint32_t width, std::uint32_t height)
+{
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+geometry_msgs::Pose poseMessage(const Shell& shell)
+{
+  Eigen::Matrix3d rotation;
+  rotation << shell.normal, shell.axis.cross(shell.normal), shell.axis;
+  const Eigen::Quaterniond orientation = Eigen::Quaterniond(rotation).normalized();
+
+  geometry_msgs::Pose pose;
+  pose.position = xyzMessage<geometry_msgs::Point>(shell.centroid);
+  pose.orientation.x = orientation.x();
+  pose.orientation.y = orientation.y();
+  pose.orientation.z = orientation.z();
+  pose.orientation.w = orientation.w();
+  return pose;
+}
+
+CylindricalShellArray shellsMessage(const Localization& localization, const std_msgs::Header& header)
+{
+  CylindricalShellArray message;
+  message.header = header;
+  message.shells.reserve(localization.shells.size());
+  for (const Shell& shell : localization.shells) {
+    message.shells.push_back(shellMessage(shell));
+  }
+  return message;
+}
+
+LocalizationStatistics statisticsMessage(const Localization& localization, const Config& config,
+                                         const std_msgs::Header& header)
+{
+  const auto count = [&](Outcome outcome) { return localization.counts[static_cast<std::size_t>(outcome)]; };
+
+  LocalizationStatistics message;
+  message.header = header;
+  message.preset = config.preset;
+  message.estimator = enumWord(config.estimation.estimator);
+  message.seed = config.sampling.seed;
+  message.threads = localization.threads;
+  message.points = localization.points;
+  message.warnings = localization.warnings;
+
+  message.sampled = localization.sampled;
+  message.too_few_points = count(Outcome::too_few_points);
+  message.degenerate = count(Outcome::degenerate);
+  message.occluded = count(Outcome::occluded);
+  message.low_curvature = count(Outcome::low_curvature);
+  message.concave = count(Outcome::concave);
+  message.no_shell = count(Outcome::no_shell);
+  message.too_short = count(Outcome::too_short);
+  message.unobserved_gap = count(Outcome::unobserved_gap);
+  message.shells = count(Outcome::shell);
+
+  message.milliseconds_total = localization.milliseconds.total;
+  message.milliseconds_preparation = localization.milliseconds.preparation;
+  message.milliseconds_neighborhoods = localization.milliseconds.neighborhoods;
+  message.milliseconds_occlusion = localization.milliseconds.occlusion;
+  message.milliseconds_fit = localization.milliseconds.fit;
+  message.milliseconds_shell = localization.milliseconds.shell;
+  return message;
+}
+
+PinholeIntrinsics intrinsicsFromCameraInfo(const sensor_msgs::CameraInfo& camera, std::uint32_t width,
+                                           std::uint32_t height)
+{
+  // A region of interest of size 0 and a binning of 0 stand for the full image and for none.
+  const sensor_msgs::RegionOfInterest& region = camera.roi;
+  const std::uint32_t binning_x = std::max(camera.binning_x, 1U);
+  const std::uint32_t binning_y = std::max(camera.binning_y, 1U);
+  const std::uint32_t image_width = (region.width > 0 ? region.width : camera.width) / binning_x;
+  const std::uint32_t image_height = (region.height > 0 ? region.height : camera.height) / binning_y;
+  if (image_width != width || image_height != height) {
+    throw std::invalid_argument("its image is " + sizeText(image_width, image_height) + ", the cloud " +
+                                sizeText(width, height));
+  }
+  if (!(camera.P[0] > 0.0 && camera.P[5] > 0.0)) {
+    throw std::invalid_argument("it is not calibrated: no positive focal lengths in its P");
+  }
+
+  PinholeIntrinsics intrinsics;
+  intrinsics.fx = camera.P[0] / binning_x;
+  intrinsics.fy = camera.P[5] / binning_y;
+  intrinsics.cx = (camera.P[2] - region.x_offset) / binning_x;
+  intrinsics.cy = (camera.P[6] - region.y_offset) / binning_y;
+  return intrinsics;
+}
+
+}  // namespace grasp_affordances

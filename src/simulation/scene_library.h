@@ -1,0 +1,34 @@
+#pragma once
+
+#include "simulation/scene.h"
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// A scene and where it is seen from.
+struct View
+{
+  Scene scene;
+  Eigen::Isometry3d T_scene_camera = Eigen::Isometry3d::Identity();  ///< optical frame of the camera
+};
+
+/// A scene by name. Sizes, places and the camera vary with the seed.
+struct NamedScene
+{
+  std::string name;
+  std::string description;  ///< one line
+  View (*generate)(std::uint64_t seed);
+};
+
+const std::vector<NamedScene>& sceneLibrary();
+
+/// @throw std::invalid_argument for a name that is not in the library.
+View makeScene(const std::string& name, std::uint64_t seed);
+
+}  // namespace grasp_affordances

@@ -1,0 +1,129 @@
+#include "tools/localize_options.h"
+
+#include "grasp_affordances/parameters.h"
+
+#include <yaml-cpp/yaml.h>
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <map>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+/// An option that sets one of the config's parameters.
+struct ParameterOption
+{
+  const char* name;
+  const char* type;
+  const char* parameter;
+  const char* description;
+};
+
+constexpr ParameterOption kParameterOptions[] = {
+    {"--samples", "N", "sampling/samples", "neighborhoods drawn per cloud"},
+    {"--capture-radius", "R", "hand/capture_radius", "of the hand, m"},
+    {"--finger-thickness", "T", "hand/finger_thickness", "gap that must be clear, m"},
+    {"--min-length", "L", "shell/min_length", "shortest affordance along its axis, m"},
+    {"--neighborhood", "KIND", "neighborhood/kind", "radius or knn"},
+    {"--estimator", "NAME", "estimation/estimator", "taubin, pca or normals"},
+    {"--threads", "N", "threads", "that work on a cloud; 0: one per core"},
+    {"--seed", "S", "sampling/seed", "of the random draws, the same for every cloud"},
+};
+
+/// The options that set parameters, as given.
+class ParameterValues
+{
+public:
+  explicit ParameterValues(CLI::App& app) : app_(app)
+  {
+    for (const ParameterOption& option : kParameterOptions) {
+      app.add_option(option.name, values_[option.name], option.description)->type_name(option.type);
+    }
+  }
+
+  std::string yaml() const
+  {
+    YAML::Node root(YAML::NodeType::Map);
+    for (const ParameterOption& option : kParameterOptions) {
+      if (app_.count(option.name) == 0) {
+        continue;
+      }
+      const std::string path = option.parameter;
+      const std::size_t slash = path.find('/');
+      if (slash == std::string::npos) {
+        root[path] = values_.at(option.name);
+      } else {
+        root[path.substr(0, slash)][path.substr(slash + 1)] = values_.at(option.name);
+      }
+    }
+    return YAML::Dump(root);
+  }
+
+private:
+  const CLI::App& app_;
+  std::map<std::string, std::string> values_;
+};
+
+Config makeConfig(const std::string& preset, const std::string& file, const ParameterValues& values)
+{
+  Config config = preset.empty() ? Config() : presetConfig(preset);
+  if (!file.empty()) {
+    config = configFromYamlFile(file, config);
+    if (!preset.empty() && config.preset != preset) {
+      throw UsageError("--preset " + preset + " contradicts " + file + ", whose preset is " + config.preset);
+    }
+  }
+  return configFromYaml(values.yaml(), config);
+}
+
+std::string firstLine(const std::string& text)
+{
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+std::optional<LocalizeOptions> parseLocalizeOptions(int argc, const char* const* argv)
+{
+  CLI::App app(
+      "Localizes enveloping grasp affordances in point clouds: PCD files, and bags with sensor_msgs/PointCloud2.",
+      "localize");
+  app.footer("Exit status: 0 done, 1 an input was unreadable or malformed, 2 usage, bad parameter or config.");
+  LocalizeOptions options;
+  std::string preset, config_file;
+  bool version = false;
+  app.add_option("clouds", options.inputs, "PCD files; files named *.bag are read as bags")
+      ->type_name("CLOUD.pcd|BAG.bag");
+  app.add_option("--config", config_file, "YAML file of parameters, read over the preset")->type_name("FILE");
+  app.add_option("--preset", preset, "localizer (default) or paper")->type_name("NAME");
+  const ParameterValues values(app);
+  app.add_option("--topic", options.topic, "of the bags' clouds; not needed where there is one only")->type_name("T");
+  app.add_option("--picture", options.picture,
+                 "draw cloud and shells; the second cloud and those after it go to FILE-2.png, FILE-3.png, ...")
+      ->type_name("FILE.png");
+  app.add_flag("--json", options.json, "one line of JSON per cloud on stdout");
+  app.add_flag("--version", version, "print the version");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      app.exit(error);
+      return std::nullopt;
+    }
+    throw UsageError(firstLine(error.what()) + " (--help lists the options)");
+  }
+  if (version) {
+    std::cout << "localize " << GRASP_AFFORDANCES_VERSION << "\n";
+    return std::nullopt;
+  }
+  if (options.inputs.empty()) {
+    throw UsageError("no cloud given (--help lists the options)");
+  }
+  options.config = makeConfig(preset, config_file, values);
+  return options;
+}
+
+}  // namespace grasp_affordances

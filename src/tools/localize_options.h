@@ -1,0 +1,35 @@
+#pragma once
+
+#include "grasp_affordances/config.h"
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// What the command line of `localize` asks for.
+struct LocalizeOptions
+{
+  std::vector<std::string> inputs;  ///< PCD files and bags
+  Config config;                    ///< validated
+  std::string topic;                ///< of the bags; empty: their only one
+  std::string picture;              ///< path of the pictures; empty: none
+  bool json = false;
+};
+
+/// A command line that makes no sense. what() is one line.
+class UsageError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The preset is read first, the config file over it, and single options over both.
+/// @return empty where help or the version was asked for; it has been printed.
+/// @throw UsageError, and ParameterError for a value that the config refuses.
+std::optional<LocalizeOptions> parseLocalizeOptions(int argc, const char* const* argv);
+
+}  // namespace grasp_affordances

@@ -1,0 +1,130 @@
+"""What the rostests share: processes, simulated scenes, clouds made by hand, and what arrives on topics."""
+
+import atexit
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import tempfile
+import threading
+import time
+
+import roslib.packages
+import rospy
+from sensor_msgs.msg import PointCloud2, PointField
+
+_scenes = None
+
+
+def executable(package, name):
+    return roslib.packages.find_node(package, name)[0]
+
+
+def scene(name):
+    """Path of a PCD file with a simulated scene, seed 1."""
+    global _scenes
+    if _scenes is None:
+        _scenes = tempfile.mkdtemp(prefix='grasp_affordances_scenes_')
+        atexit.register(shutil.rmtree, _scenes)
+    path = os.path.join(_scenes, name + '.pcd')
+    if not os.path.exists(path):
+        subprocess.run([executable('grasp_affordances', 'simulate'), '--scene', name, '--seed', '1', '--out', path],
+                       check=True, stdout=subprocess.DEVNULL, timeout=60)
+    return path
+
+
+class Process:
+    """A node in a process of its own. Its output is kept; leaving the block interrupts it and waits for its end."""
+
+    def __init__(self, package, name, *arguments):
+        self._output = tempfile.TemporaryFile()
+        self._process = subprocess.Popen([executable(package, name)] + list(arguments), stdout=self._output,
+                                         stderr=subprocess.STDOUT)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.interrupt()
+
+    def interrupt(self):
+        """Ends the process as Ctrl-C does; returns its exit code."""
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+        return self.wait(15)
+
+    def wait(self, timeout):
+        try:
+            return self._process.wait(timeout)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+            raise
+
+    def output(self):
+        self._output.seek(0)
+        return self._output.read().decode()
+
+
+def publisher(file, rate=0, frame='camera_depth_optical_frame'):
+    """pcd_publisher on the topic points; rate in Hz, 0: once, latched."""
+    return Process('grasp_affordances', 'pcd_publisher', '_file:=' + file, '_rate:=%g' % rate, '_frame_id:=' + frame)
+
+
+class Listener:
+    """Keeps what arrives on a topic."""
+
+    def __init__(self, topic, message_type):
+        self._messages = []
+        self._arrival = threading.Condition()
+        self._subscriber = rospy.Subscriber(topic, message_type, self._receive, queue_size=100)
+
+    def _receive(self, message):
+        with self._arrival:
+            self._messages.append((message, rospy.Time.now()))
+            self._arrival.notify_all()
+
+    def close(self):
+        self._subscriber.unregister()
+
+    def messages(self):
+        with self._arrival:
+            return [message for message, _ in self._messages]
+
+    def arrivals(self):
+        """Messages with the times of their arrival."""
+        with self._arrival:
+            return list(self._messages)
+
+    def wait(self, accept=lambda message: True, timeout=20):
+        """The first message that is accepted, of those that have arrived or come before the timeout."""
+        end = time.monotonic() + timeout
+        with self._arrival:
+            while True:
+                for message, _ in self._messages:
+                    if accept(message):
+                        return message
+                left = end - time.monotonic()
+                if left <= 0:
+                    raise AssertionError('nothing suitable arrived on %s in %g s' % (self._subscriber.name, timeout))
+                self._arrival.wait(left)
+
+
+def wait_until(condition, what, timeout=20):
+    end = time.monotonic() + timeout
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError('%s: not within %g s' % (what, timeout))
+        time.sleep(0.05)
+
+
+def cloud(width=8, height=6, frame='by_hand'):
+    """A well-formed organized cloud of which nothing was measured."""
+    message = PointCloud2(width=width, height=height, point_step=12, row_step=12 * width, is_bigendian=False)
+    message.header.frame_id = frame
+    message.header.stamp = rospy.Time.now()
+    message.fields = [PointField(name=name, offset=4 * i, datatype=PointField.FLOAT32, count=1)
+                      for i, name in enumerate('xyz')]
+    message.data = struct.pack('<f', float('nan')) * (3 * width * height)
+    return message

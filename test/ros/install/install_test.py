@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+"""Another package finds the core library, in the devel space and in an installed copy, and the copy runs its launch files."""
+
+import argparse
+import os
+import signal
+import socket
+import subprocess
+import tempfile
+
+# What the core library uses inside must not be needed by those who use the core library.
+PRIVATE_PACKAGES = ('PCL', 'TBB', 'yaml-cpp')
+
+
+def run(command, **options):
+    subprocess.run(command, check=True, timeout=100, **options)
+
+
+def build_consumer(cmake, prefix, build):
+    source = os.path.join(os.path.dirname(os.path.realpath(__file__)), 'consumer')
+    hidden = ['-DCMAKE_DISABLE_FIND_PACKAGE_%s=TRUE' % package for package in PRIVATE_PACKAGES]
+    environment = dict(os.environ, CMAKE_PREFIX_PATH=prefix)
+    run([cmake, '--no-warn-unused-cli', '-S', source, '-B', build] + hidden, env=environment, stdout=subprocess.DEVNULL)
+    run([cmake, '--build', build], stdout=subprocess.DEVNULL)
+    for consumer in ('target_consumer', 'catkin_consumer'):
+        run([os.path.join(build, consumer)])
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(('127.0.0.1', 0))
+        return probe.getsockname()[1]
+
+
+class InstalledShell:
+    """A shell that has sourced the setup.bash of the installed copy and knows nothing of the build."""
+
+    def __init__(self, prefix, home):
+        self.setup = os.path.join(prefix, 'setup.bash')
+        self.port = free_port()
+        self.environment = {'PATH': '/usr/bin:/bin', 'HOME': home, 'ROS_IP': '127.0.0.1', 'LC_ALL': 'C.UTF-8'}
+
+    def command(self, text):
+        master = 'export ROS_MASTER_URI=http://127.0.0.1:%d' % self.port
+        return ['bash', '-c', 'source %s && %s && exec %s' % (self.setup, master, text)]
+
+    def answer(self, text):
+        return subprocess.run(self.command(text), env=self.environment, check=True, timeout=40,
+                              stdout=subprocess.PIPE).stdout.decode()
+
+    def start(self, text):
+        return subprocess.Popen(self.command(text), env=self.environment, start_new_session=True)
+
+
+def check_launch(prefix, scratch):
+    shell = InstalledShell(prefix, scratch)
+    share = os.path.join(prefix, 'share', 'grasp_affordances')
+    assert shell.answer('rospack find grasp_affordances').strip() == share
+
+    scene = os.path.join(scratch, 'table.pcd')
+    shell.answer('rosrun grasp_affordances simulate --scene table --seed 1 --out ' + scene)
+    launch = shell.start('roslaunch -p %d grasp_affordances pcd.launch file:=%s' % (shell.port, scene))
+    try:
+        shell.answer('bash -c "until rosparam get /localizer/preset; do sleep 0.2; done" 2>/dev/null')
+        statistics = shell.answer('rostopic echo -n 1 /localizer/statistics')
+        assert 'sampled: 4000' in statistics, statistics
+        assert 'shells: 0' not in statistics, statistics
+        launch.send_signal(signal.SIGINT)
+        assert launch.wait(30) == 0
+    finally:
+        if launch.poll() is None:
+            os.killpg(launch.pid, signal.SIGKILL)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('--cmake', required=True)
+    parser.add_argument('--build', required=True, help='build folder, built')
+    parser.add_argument('--devel', required=True, help='devel space of that build')
+    parser.add_argument('--prefix', required=True, help='install prefix of that build')
+    arguments = parser.parse_args()
+
+    with tempfile.TemporaryDirectory(prefix='grasp_affordances_install_') as scratch:
+        # catkin installs its setup files to the configured prefix whatever `--prefix` says: only DESTDIR moves all.
+        root = os.path.join(scratch, 'root')
+        run([arguments.cmake, '--install', arguments.build], env=dict(os.environ, DESTDIR=root),
+            stdout=subprocess.DEVNULL)
+        prefix = root + arguments.prefix
+        build_consumer(arguments.cmake, arguments.devel, os.path.join(scratch, 'devel_consumer'))
+        build_consumer(arguments.cmake, prefix, os.path.join(scratch, 'installed_consumer'))
+        check_launch(prefix, scratch)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+"""Start, refusal to start, overload and end of the localizer, as a plain node and as a nodelet."""
+
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+
+from grasp_affordances.msg import LocalizationStatistics
+from helpers import Listener, Process, publisher, scene, wait_until
+
+BAD_PARAMETERS = (('hand/capture_radius', 0.7, '[0.002, 0.5] m'),
+                  ('sampling/samples', 12.5, 'an integer in [1, 10000000]'),
+                  ('estimation/estimator', 'taubing', 'taubing'),
+                  ('shell/min_lenght', 0.03, 'unknown name'))
+ABNORMAL_ENDS = ('boost', 'mutex', 'terminate', 'Assertion', 'rror:')
+
+
+def localizer(*arguments):
+    return Process('grasp_affordances', 'localizer_node', *arguments)
+
+
+def manager():
+    return Process('nodelet', 'nodelet', 'manager', '__name:=manager')
+
+
+def loader(*options):
+    """Loads the localizer into the manager, stays, and unloads it when it is interrupted."""
+    return Process('nodelet', 'nodelet', 'load', 'grasp_affordances/LocalizerNodelet', 'manager', *options,
+                   '__name:=localizer')
+
+
+def advertised():
+    return 'localizer/statistics' in str(rospy.get_published_topics())
+
+
+class Lifecycle(unittest.TestCase):
+    def setUp(self):
+        self.clear_parameters()
+
+    def tearDown(self):
+        self.clear_parameters()
+
+    @staticmethod
+    def clear_parameters():
+        if rospy.has_param('localizer'):
+            rospy.delete_param('localizer')
+
+    def check_answers(self):
+        """A cloud is answered by whoever is the localizer now."""
+        listener = Listener('localizer/statistics', LocalizationStatistics)
+        self.assertGreater(listener.wait().sampled, 0)
+        listener.close()
+
+    def check_clean_end(self, process):
+        self.assertEqual(process.interrupt(), 0, process.output())
+        for sign in ABNORMAL_ENDS:
+            self.assertNotIn(sign, process.output())
+
+    def test_nodelet_unloads_reloads_and_its_manager_exits_cleanly(self):
+        with publisher(scene('table'), rate=10), manager() as host:
+            for _ in range(2):
+                with loader() as load:
+                    self.check_answers()
+                    self.assertEqual(load.interrupt(), 0, load.output())
+                wait_until(lambda: not advertised(), 'unloading')
+            # A bond that is still forming, about a second long, makes nodelet's Loader crash when it is destroyed.
+            with loader('--no-bond'):
+                listener = Listener('localizer/statistics', LocalizationStatistics)
+                listener.wait()
+                self.check_clean_end(host)  # while it is at work
+                listener.close()
+
+    def test_node_exits_cleanly(self):
+        with publisher(scene('table'), rate=10), localizer() as node:
+            listener = Listener('localizer/statistics', LocalizationStatistics)
+            listener.wait()
+            self.check_clean_end(node)
+            listener.close()
+
+    def test_node_refuses_bad_parameters(self):
+        for name, value, text in BAD_PARAMETERS:
+            with localizer('_%s:=%s' % (name, value)) as node:
+                self.assertEqual(node.wait(15), 1, node.output())
+                for part in (name, str(value), text):
+                    self.assertIn(part, node.output())
+            self.clear_parameters()
+
+    def test_nodelet_refuses_bad_parameters_and_its_manager_lives_on(self):
+        with publisher(scene('table'), rate=10), manager() as host:
+            for name, value, text in BAD_PARAMETERS:
+                rospy.set_param('localizer/' + name, value)
+                with loader() as load:
+                    self.assertNotEqual(load.wait(15), 0)
+                self.assertFalse(advertised())
+                for part in (name, str(value), text):
+                    self.assertIn(part, host.output())
+                self.clear_parameters()
+            with loader():
+                self.check_answers()
+
+    def test_publisher_refuses_a_file_that_is_not_there(self):
+        with publisher('/nowhere/cloud.pcd') as node:
+            self.assertEqual(node.wait(15), 1)
+            self.assertIn('/nowhere/cloud.pcd', node.output())
+
+    def test_eager_node_subscribes_without_a_listener(self):
+        with localizer('_lazy:=false'):
+            wait_until(lambda: '/points' in str(rosgraph.Master(rospy.get_name()).getSystemState()[1]), 'subscription')
+
+    def test_overloaded_node_works_on_the_newest_cloud_and_counts_the_others(self):
+        rate = 20.0
+        with publisher(scene('table'), rate), localizer('_sampling/samples:=20000', '_threads:=1'):
+            listener = Listener('localizer/statistics', LocalizationStatistics)
+            last = listener.wait(lambda m: m.clouds_processed == 5, timeout=40)
+            arrivals = listener.arrivals()
+            listener.close()
+        self.assertGreater(last.clouds_dropped, 0)
+        handled = last.clouds_processed + last.clouds_dropped + last.clouds_rejected
+        self.assertIn(last.clouds_received - handled, (0, 1))
+        for (earlier, _), (message, arrival) in zip(arrivals, arrivals[1:]):
+            self.assertGreater(message.header.stamp, earlier.header.stamp)
+            # It came at most one period, and the way through the network, before its work began.
+            age = (arrival - message.header.stamp).to_sec()
+            self.assertLess(age, message.milliseconds_total / 1e3 + 1 / rate + 0.3)
+
+
+if __name__ == '__main__':
+    rospy.init_node('lifecycle_test')
+    rostest.rosrun('grasp_affordances', 'lifecycle', Lifecycle)

@@ -1,0 +1,113 @@
+#include "nodelets/parameters_ros.h"
+
+#include <gtest/gtest.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <cmath>
+#include <string>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+using XmlRpc::XmlRpcValue;
+
+/// What the refusal of one parameter says; empty if it is accepted.
+std::string refusal(const std::string& group, const std::string& name, const XmlRpcValue& value)
+{
+  XmlRpcValue parameters;
+  if (group.empty()) {
+    parameters[name] = value;
+  } else {
+    parameters[group][name] = value;
+  }
+  try {
+    nodeParameters(parameters);
+  } catch (const ParameterError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+TEST(NodeParameters, DefaultsAreThoseOfTheDefaultPreset)
+{
+  XmlRpcValue parameters;
+  parameters["lazy"] = false;
+  const NodeParameters read = nodeParameters(parameters);
+  EXPECT_EQ(read.config.preset, "localizer");
+  EXPECT_EQ(read.config.hand.capture_radius, HandGeometry().capture_radius);
+  EXPECT_FALSE(read.lazy);
+  EXPECT_TRUE(NodeParameters().lazy);
+}
+
+TEST(NodeParameters, EveryKindOfValueOverrulesThePreset)
+{
+  XmlRpcValue parameters;
+  parameters["preset"] = "paper";
+  parameters["threads"] = 3;
+  parameters["hand"]["capture_radius"] = 0.048;
+  parameters["sampling"]["samples"] = 123;
+  parameters["sampling"]["seed"] = 42;
+  parameters["neighborhood"]["kind"] = "knn";
+  parameters["occlusion"]["filter"] = false;
+  parameters["estimation"]["estimator"] = "pca";
+  const Config config = nodeParameters(parameters).config;
+  EXPECT_EQ(config.preset, "paper");
+  EXPECT_EQ(config.threads, 3);
+  EXPECT_EQ(config.hand.capture_radius, 0.048);
+  EXPECT_EQ(config.sampling.samples, 123);
+  EXPECT_EQ(config.sampling.seed, 42U);
+  EXPECT_EQ(config.neighborhood.kind, NeighborhoodKind::knn);
+  EXPECT_FALSE(config.occlusion.filter);
+  EXPECT_EQ(config.estimation.estimator, Estimator::pca);
+  EXPECT_EQ(config.shell.min_length, presetConfig("paper").shell.min_length);
+}
+
+TEST(NodeParameters, AnIntegerIsFineForARealNumberButNotTheOtherWayRound)
+{
+  EXPECT_EQ(refusal("shell", "min_observed_free", 1), "");
+  const std::string text = refusal("sampling", "samples", 500.0);
+  EXPECT_TRUE(contains(text, "~sampling/samples")) << text;
+  EXPECT_TRUE(contains(text, "500")) << text;
+  EXPECT_TRUE(contains(text, "an integer in [1, 10000000]")) << text;
+}
+
+TEST(NodeParameters, RefusesValuesOutsideTheirRangeWithNameValueAndRange)
+{
+  for (const XmlRpcValue& value : {XmlRpcValue(0.7), XmlRpcValue(-1), XmlRpcValue(std::nan(""))}) {
+    const std::string text = refusal("hand", "capture_radius", value);
+    EXPECT_TRUE(contains(text, "~hand/capture_radius")) << text;
+    EXPECT_TRUE(contains(text, "[0.002, 0.5] m")) << text;
+  }
+  EXPECT_TRUE(contains(refusal("hand", "capture_radius", 0.7), "0.7"));
+  EXPECT_TRUE(contains(refusal("sampling", "seed", -1), "-1"));
+}
+
+TEST(NodeParameters, RefusesValuesOfAnotherType)
+{
+  EXPECT_TRUE(contains(refusal("hand", "capture_radius", "wide"), "'wide'"));
+  EXPECT_TRUE(contains(refusal("hand", "capture_radius", true), "true"));
+  EXPECT_TRUE(contains(refusal("occlusion", "filter", 1), "true or false"));
+  EXPECT_TRUE(contains(refusal("", "lazy", "yes"), "~lazy"));
+  EXPECT_TRUE(contains(refusal("neighborhood", "kind", 3), "radius knn"));
+  EXPECT_TRUE(contains(refusal("neighborhood", "kind", "cube"), "cube"));
+  EXPECT_TRUE(contains(refusal("", "preset", "papyrus"), "papyrus"));
+}
+
+TEST(NodeParameters, RefusesUnknownNames)
+{
+  EXPECT_TRUE(contains(refusal("hand", "radius", 0.03), "~hand/radius (the real number 0.03)"));
+  EXPECT_TRUE(contains(refusal("hnad", "capture_radius", 0.03), "~hnad/capture_radius"));
+  EXPECT_TRUE(contains(refusal("", "hand", 0.03), "~hand"));
+  EXPECT_TRUE(contains(refusal("", "sample", 3), "~sample"));
+  EXPECT_TRUE(contains(refusal("threads", "count", 3), "~threads/count"));
+}
+
+}  // namespace
+}  // namespace grasp_affordances

@@ -1,0 +1,214 @@
+#include "grasp_affordances/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace grasp_affordances::test
+{
+namespace
+{
+
+std::string textOfFile(const std::string& path)
+{
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Every parameter's value as text, and its documentation.
+class Listing
+{
+public:
+  std::map<std::string, std::string> values;
+  std::map<std::string, std::string> table_rows;  // of the README
+
+  template <typename T>
+  void operator()(const char* name, const T& value, const Range<T>& range, const char* unit, const char* description)
+  {
+    values[name] = text(value);
+    table_rows[name] = row(name, unit, text(value), text(range.min) + " to " + text(range.max), description);
+  }
+
+  void operator()(const char* name, const bool& value, const char* description)
+  {
+    values[name] = value ? "true" : "false";
+    table_rows[name] = row(name, "", values[name], "true, false", description);
+  }
+
+  template <typename Enum>
+  void operator()(const char* name, const Enum& value, const char* description)
+  {
+    std::string words;
+    for (const std::string& word : enumWords<Enum>()) {
+      words += (words.empty() ? "" : ", ") + word;
+    }
+    values[name] = enumWord(value);
+    table_rows[name] = row(name, "", values[name], words, description);
+  }
+
+private:
+  template <typename T>
+  static std::string text(const T& value)
+  {
+    std::ostringstream stream;
+    stream << value;
+    return stream.str();
+  }
+
+  static std::string row(const std::string& name, const std::string& unit, const std::string& value,
+                         const std::string& range, const std::string& description)
+  {
+    return "| `" + name + "` | " + value + " | " + unit + " | " + range + " | " + description + " |";
+  }
+};
+
+Listing listingOf(const Config& config)
+{
+  Listing listing;
+  visitParameters(config, listing);
+  return listing;
+}
+
+class PresetFile : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(PresetFile, HoldsEveryParameterOfThePresetAndNothingElse)
+{
+  const std::string text = textOfFile(GRASP_AFFORDANCES_SOURCE_DIR "/config/" + GetParam() + ".yaml");
+  const Config from_file = configFromYaml(text, Config());
+  EXPECT_EQ(from_file.preset, GetParam());
+  EXPECT_EQ(listingOf(from_file).values, listingOf(presetConfig(GetParam())).values);
+  for (const auto& parameter : listingOf(Config()).values) {
+    const std::string key = parameter.first.substr(parameter.first.find('/') + 1);
+    EXPECT_NE(text.find(key + ": "), std::string::npos) << parameter.first << " is not in the file";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Config, PresetFile, testing::ValuesIn(presetNames()),
+                         [](const testing::TestParamInfo<std::string>& info) { return info.param; });
+
+TEST(Presets, AreValidAndPaperHasThePapersNumbers)
+{
+  for (const std::string& name : presetNames()) {
+    EXPECT_NO_THROW(validate(presetConfig(name))) << name;
+  }
+  const Config paper = presetConfig("paper");
+  EXPECT_DOUBLE_EQ(paper.hand.capture_radius, 0.026);
+  EXPECT_DOUBLE_EQ(paper.hand.finger_thickness, 0.008);
+  EXPECT_EQ(paper.sampling.samples, 4000);
+  EXPECT_EQ(paper.neighborhood.k, 500);
+  EXPECT_EQ(paper.occlusion.max_points_in_front, 20);
+  EXPECT_EQ(paper.shell.gap_points_to_block, 5);
+  EXPECT_EQ(paper.shell.min_points_inside, 40);
+  EXPECT_FALSE(paper.estimation.reject_concave);
+}
+
+TEST(Readme, DocumentsEveryParameterAsItIs)
+{
+  const std::string readme = textOfFile(GRASP_AFFORDANCES_SOURCE_DIR "/README.md");
+  for (const auto& row : listingOf(Config()).table_rows) {
+    EXPECT_NE(readme.find(row.second), std::string::npos) << row.second;
+  }
+}
+
+std::string messageOf(const std::string& yaml)
+{
+  try {
+    configFromYaml(yaml, Config());
+  } catch (const ParameterError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ConfigFromYaml, OverridesWhatItNames)
+{
+  const Config config = configFromYaml(
+      "preset: paper\nhand: {capture_radius: 0.05}\nestimation: {estimator: pca}\nneighborhood: {kind: knn}\n",
+      Config());
+  EXPECT_EQ(config.preset, "paper");
+  EXPECT_DOUBLE_EQ(config.hand.capture_radius, 0.05);
+  EXPECT_EQ(config.estimation.estimator, Estimator::pca);
+  EXPECT_EQ(config.neighborhood.kind, NeighborhoodKind::knn);
+  EXPECT_FALSE(config.shell.measure_length) << "from the preset";
+
+  const Config based = configFromYaml("hand: {finger_thickness: 0.01}", config);
+  EXPECT_EQ(based.preset, "paper");
+  EXPECT_DOUBLE_EQ(based.hand.capture_radius, 0.05) << "from the base";
+  EXPECT_EQ(configFromYaml("", config).preset, "paper") << "an empty file changes nothing";
+}
+
+TEST(ConfigFromYaml, RefusesWithNameValueAndRange)
+{
+  EXPECT_EQ(messageOf("hand: {capture_radius: 7}"),
+            "hand/capture_radius: 7 is outside the allowed range [0.002, 0.5] m");
+  EXPECT_EQ(messageOf("estimation: {estimator: ransac}"),
+            "estimation/estimator: 'ransac' is none of: taubin, pca, normals");
+  EXPECT_EQ(messageOf("hand: {grip: 1}"), "hand/grip: no such parameter (its value: '1')");
+  EXPECT_EQ(messageOf("hand: {capture_radius: wide}"), "hand/capture_radius: 'wide' is not a number");
+  EXPECT_EQ(messageOf("sampling: {samples: 1.5}"), "sampling/samples: '1.5' is not a whole number");
+  EXPECT_EQ(messageOf("occlusion: {filter: 3}"), "occlusion/filter: '3' is not true or false");
+  EXPECT_EQ(messageOf("preset: best"), "preset: 'best' is none of: localizer, paper");
+  EXPECT_EQ(messageOf("[1, 2]"), "the configuration is no YAML map");
+  EXPECT_NE(messageOf("hand: {capture_radius: .nan}").find("outside"), std::string::npos);
+  EXPECT_NE(messageOf("a: [").find("no YAML"), std::string::npos);
+  EXPECT_NE(messageOf("shell: {min_length: 0.2}").find("shell/max_length"), std::string::npos);
+  EXPECT_THROW(configFromYamlFile("/nonexistent.yaml", Config()), ParameterError);
+}
+
+/// Puts every number outside its range, one at a time.
+class OutOfRange
+{
+public:
+  OutOfRange(Config& config, int target) : config_(config), target_(target) {}
+
+  template <typename T>
+  void operator()(const char* name, T& value, const Range<T>& range, const char*, const char*)
+  {
+    if (index_++ == target_) {
+      const T kept = value;
+      value = range.max + std::max<T>(1, range.max);
+      EXPECT_THROW(validate(config_), ParameterError) << name << " " << value;
+      if (std::numeric_limits<T>::is_signed) {
+        value = range.min - 1;
+        EXPECT_THROW(validate(config_), ParameterError) << name << " " << value;
+      }
+      value = kept;
+    }
+  }
+
+  template <typename T>
+  void operator()(const char*, T&, const char*)
+  {
+  }
+
+  int count() const { return index_; }
+
+private:
+  Config& config_;
+  int target_;
+  int index_ = 0;
+};
+
+TEST(Validate, ChecksEveryNumber)
+{
+  Config config;
+  OutOfRange all(config, -1);
+  visitParameters(config, all);
+  ASSERT_GT(all.count(), 20);
+  for (int i = 0; i < all.count(); ++i) {
+    visitParameters(config, OutOfRange(config, i));
+  }
+  EXPECT_NO_THROW(validate(config));
+}
+
+}  // namespace
+}  // namespace grasp_affordances::test

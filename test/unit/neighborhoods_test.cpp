@@ -1,0 +1,200 @@
+#include "grasp_affordances/neighborhoods.h"
+
+#include "io/pcd.h"
+#include "support/points.h"
+#include "support/recordings.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances::test
+{
+namespace
+{
+
+std::vector<std::uint32_t> indicesOf(const Neighborhood& neighborhood)
+{
+  return {neighborhood.index(), neighborhood.index() + neighborhood.size()};
+}
+
+std::vector<std::uint32_t> bruteForceNearest(const Cloud& cloud, const Eigen::Vector3f& center, std::size_t k)
+{
+  std::vector<std::pair<float, std::uint32_t>> order;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.measured(i)) {
+      const Eigen::Vector3f d = cloud.point(i) - center;
+      order.emplace_back(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), static_cast<std::uint32_t>(i));
+    }
+  }
+  k = std::min(k, order.size());
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(k) - 1, order.end());
+  std::vector<std::uint32_t> nearest;
+  for (std::size_t i = 0; i < k; ++i) {
+    nearest.push_back(order[i].second);
+  }
+  std::sort(nearest.begin(), nearest.end());
+  return nearest;
+}
+
+std::size_t measuredPoints(const Cloud& cloud)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    count += cloud.measured(i) ? 1 : 0;
+  }
+  return count;
+}
+
+/// Window, tree and brute force give the same points, in the same order, around points and beside them.
+void expectSameNeighborhoods(const Cloud& cloud, std::uint64_t seed, int places)
+{
+  std::string warning;
+  const auto image = RangeImage::create(cloud, warning);
+  ASSERT_TRUE(image) << warning;
+  const auto window = makeWindowSearch(*image, measuredPoints(cloud));
+  const auto tree = makeTreeSearch(cloud);
+  Random random(seed);
+  Neighborhood from_window, from_tree;
+  for (int i = 0; i < places;) {
+    const auto point = static_cast<std::size_t>(random.uniform(0, static_cast<double>(cloud.size())));
+    if (!cloud.measured(point)) {
+      continue;
+    }
+    const float offset = i % 2 == 0 ? 0.0F : 0.03F;
+    const Eigen::Vector3f center = cloud.point(point) + offset * random.direction().cast<float>();
+    const auto radius = static_cast<float>(random.uniform(0.003, 0.06));
+    window->withinRadius(center, radius, from_window);
+    tree->withinRadius(center, radius, from_tree);
+    const auto expected = indicesOf(bruteForceNeighborhood(cloud, center, radius));
+    ASSERT_EQ(indicesOf(from_window), expected) << "point " << point << " radius " << radius;
+    ASSERT_EQ(indicesOf(from_tree), expected) << "point " << point << " radius " << radius;
+
+    const auto k = static_cast<std::size_t>(random.uniform(1, 700));
+    window->nearest(center, k, from_window);
+    tree->nearest(center, k, from_tree);
+    const auto nearest = bruteForceNearest(cloud, center, k);
+    ASSERT_EQ(indicesOf(from_window), nearest) << "point " << point << " k " << k;
+    ASSERT_EQ(indicesOf(from_tree), nearest) << "point " << point << " k " << k;
+    ASSERT_EQ(from_window.radius, from_tree.radius);
+    ++i;
+  }
+}
+
+TEST(NeighborhoodSearch, AgreesWithBruteForceOnASimulatedCloud)
+{
+  expectSameNeighborhoods(captureScene("table", 3).cloud, 1, 60);
+}
+
+class RecordedCloud : public testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(RecordedCloud, AgreesWithBruteForce)
+{
+  REQUIRE_RECORDINGS(folder);
+  expectSameNeighborhoods(readPcdCloud(folder + "/" + GetParam()), 2, 40);
+}
+
+INSTANTIATE_TEST_SUITE_P(NeighborhoodSearch, RecordedCloud,
+                         testing::Values("mosd/learn5.pcd", "mosd/learn20.pcd", "mosd/learn31.pcd", "mosd/learn33.pcd",
+                                         "mosd/learn38.pcd", "mosd/learn39.pcd", "mosd/learn40.pcd", "mosd/learn42.pcd",
+                                         "mosd/learn43.pcd", "mosd/learn44.pcd",
+                                         "pcl/milk_cartoon_all_small_clorox.pcd"),
+                         [](const testing::TestParamInfo<const char*>& info) {
+                           std::string name(info.param);
+                           name = name.substr(name.find('/') + 1);
+                           return name.substr(0, name.find('.'));
+                         });
+
+TEST(NeighborhoodSearch, BreaksTiesByIndex)
+{
+  // Six points at the same distance, of which k = 4 takes the first ones and the centre.
+  const Points points{{0.01, 0, 1}, {-0.01, 0, 1}, {0, 0.01, 1}, {0, 0, 1}, {0, -0.01, 1}, {0.01, 0, 1}, {0, 0.01, 1}};
+  const Cloud cloud = cloudOf(points);
+  Neighborhood nearest;
+  makeTreeSearch(cloud)->nearest({0, 0, 1}, 4, nearest);
+  EXPECT_EQ(indicesOf(nearest), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+}
+
+TEST(NeighborhoodSearch, GivesAllPointsWhereThereAreFewerThanK)
+{
+  const Cloud cloud = cloudOf({{0, 0, 1}, {0.3, 0, 1}, {0, 5, 1}});
+  Neighborhood nearest;
+  makeTreeSearch(cloud)->nearest({0, 0, 1}, 500, nearest);
+  EXPECT_EQ(nearest.size(), 3U);
+  EXPECT_FLOAT_EQ(nearest.radius, 5.0F);
+  const Cloud nothing = cloudOf({});
+  makeTreeSearch(nothing)->nearest({0, 0, 1}, 5, nearest);
+  EXPECT_EQ(nearest.size(), 0U);
+}
+
+TEST(RangeImage, EstimatesTheIntrinsics)
+{
+  const Cloud cloud = captureScene("table", 1).cloud;
+  ASSERT_TRUE(cloud.intrinsics);
+  const auto fit = estimateIntrinsics(cloud);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->intrinsics.fx, cloud.intrinsics->fx, 1e-2);
+  EXPECT_NEAR(fit->intrinsics.fy, cloud.intrinsics->fy, 1e-2);
+  EXPECT_NEAR(fit->intrinsics.cx, cloud.intrinsics->cx, 1e-2);
+  EXPECT_NEAR(fit->intrinsics.cy, cloud.intrinsics->cy, 1e-2);
+  EXPECT_LT(fit->max_residual, 1e-2);
+}
+
+TEST(RangeImage, ReplacesIntrinsicsThatDoNotFit)
+{
+  Cloud cloud = captureScene("table", 1).cloud;
+  cloud.intrinsics->fx *= 1.1;
+  std::string warning;
+  const auto image = RangeImage::create(cloud, warning);
+  ASSERT_TRUE(image);
+  EXPECT_NE(warning.find("estimated"), std::string::npos) << warning;
+  EXPECT_NEAR(image->intrinsics().fx, 525.0, 1e-2);
+}
+
+TEST(RangeImage, RefusesACloudThatWasMoved)
+{
+  Cloud cloud = captureScene("table", 1).cloud;
+  const Eigen::Matrix3f rotation = Eigen::AngleAxisf(0.5F, Eigen::Vector3f::UnitX()).toRotationMatrix();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f p = rotation * cloud.point(i) + Eigen::Vector3f(0.1F, 0.0F, 0.5F);
+    cloud.set(i, p.x(), p.y(), p.z());
+  }
+  std::string warning;
+  EXPECT_FALSE(RangeImage::create(cloud, warning));
+  EXPECT_NE(warning.find("optical frame"), std::string::npos) << warning;
+}
+
+TEST(RangeImage, RefusesPointsBehindTheSensor)
+{
+  Cloud cloud = captureScene("table", 1).cloud;
+  for (float& z : cloud.z) {
+    z = -z;
+  }
+  std::string warning;
+  EXPECT_FALSE(RangeImage::create(cloud, warning));
+  EXPECT_FALSE(warning.empty());
+}
+
+TEST(RangeImage, FindsThePixelOfAPoint)
+{
+  const Cloud cloud = captureScene("table", 1).cloud;
+  std::string warning;
+  const auto image = RangeImage::create(cloud, warning);
+  ASSERT_TRUE(image);
+  for (std::size_t i = 0; i < cloud.size(); i += 997) {
+    if (cloud.measured(i)) {
+      EXPECT_EQ(image->pixel(cloud.point(i).cast<double>()), i);
+    }
+  }
+  EXPECT_FALSE(image->pixel({0, 0, -1}));
+  EXPECT_FALSE(image->pixel({10, 0, 1}));
+  EXPECT_NEAR(image->spacing(1.05), 0.002, 1e-5);
+}
+
+}  // namespace
+}  // namespace grasp_affordances::test
