@@ -461,13 +461,13 @@ TEST_F(OddClouds, withNothingToLocalizeSayWhyInOneLine)
   pcl::PointCloud<pcl::PointXYZ> cloud(640, 480);
   const auto fill = [&](float x, float y, float z) { std::fill(cloud.begin(), cloud.end(), pcl::PointXYZ(x, y, z)); };
   fill(kNan, kNan, kNan);
-  expectDone(write("nan.pcd", cloud), "no measured point");
+  expectDone(write("nan.pcd", cloud), "all points are NaN, zero or infinite");
   fill(0.1F, 0.2F, kNan);
-  expectDone(write("z_nan.pcd", cloud), "no measured point");
+  expectDone(write("z_nan.pcd", cloud), "all points are NaN, zero or infinite");
   fill(std::numeric_limits<float>::infinity(), 0.2F, 1.0F);
-  expectDone(write("infinite.pcd", cloud), "no measured point");
+  expectDone(write("infinite.pcd", cloud), "all points are NaN, zero or infinite");
   fill(0.0F, 0.0F, 0.0F);
-  expectDone(write("zeros.pcd", cloud), "no measured point");
+  expectDone(write("zeros.pcd", cloud), "all points are NaN, zero or infinite");
   fill(0.1F, 0.2F, 1.0F);
   expectDone(write("equal.pcd", cloud), "coincide");
   expectDone(writeText("empty.pcd",
