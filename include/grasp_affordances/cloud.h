@@ -21,6 +21,12 @@ struct PinholeIntrinsics
   double cy = 0.0;
 };
 
+/// The one expression for the square of a length in single precision: comparisons between results of it are exact.
+inline float squaredLength(float x, float y, float z)
+{
+  return x * x + y * y + z * z;
+}
+
 /// A point cloud as three contiguous coordinate arrays, row-major where it is organized. Metres, in the frame that its
 /// owner knows; an organized cloud is expected in its optical frame (x right, y down, z forward).
 ///
@@ -56,7 +62,7 @@ struct Cloud
   /// Stores a point; one that does not count as measured is stored as NaN.
   void set(std::size_t index, float px, float py, float pz)
   {
-    const float squared_range = px * px + py * py + pz * pz;
+    const float squared_range = squaredLength(px, py, pz);
     const bool measured = std::isfinite(squared_range) && squared_range > 0.0F;
     const float nan = std::nanf("");
     x[index] = measured ? px : nan;

@@ -29,9 +29,8 @@ PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vecto
 /// The larger principal curvature over a neighborhood.
 struct NeighborhoodCurvature
 {
-  double median = 0.0;                                ///< 1/m, of the magnitudes
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();    ///< unit, curvature axis at the median point
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, of the quadric at the median point, towards the sensor
+  double median = 0.0;                              ///< 1/m, of the magnitudes
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, curvature axis at the median point
   bool concave = false;  ///< at most of the points the centre of curvature lies on the sensor's side
 };
 

@@ -34,7 +34,7 @@ void visitParameters(ConfigT& c, Visitor&& visit)
   visit("hand/finger_thickness", c.hand.finger_thickness, Real{0.001, 0.1}, "m",
         "thickness of the thickest finger: the gap that must be clear");
 
-  visit("sampling/samples", c.sampling.samples, Count{1, 10000000}, "", "neighborhoods drawn per cloud");
+  visit("sampling/samples", c.sampling.samples, Count{1, 1000000}, "", "neighborhoods drawn per cloud");
   visit("sampling/seed", c.sampling.seed, Range<std::uint64_t>{0, (std::uint64_t{1} << 53) - 1}, "",
         "of the random draws, the same for every cloud");
 
@@ -55,7 +55,7 @@ void visitParameters(ConfigT& c, Visitor&& visit)
         "points of the neighborhood at which the quadric's curvature is taken");
   visit("estimation/reject_concave", c.estimation.reject_concave,
         "reject neighborhoods whose centre of curvature is on the sensor's side");
-  visit("estimation/normals_radius", c.estimation.normals_radius, Real{0.001, 0.5}, "m",
+  visit("estimation/normals_radius", c.estimation.normals_radius, Real{0.001, 0.1}, "m",
         "support of the surface normals of the Normals variation");
 
   visit("shell/radius_step", c.shell.radius_step, Real{0.0001, 0.01}, "m", "by which the shell grows");

@@ -38,6 +38,7 @@ struct PointCloud2Layout
 };
 
 /// Copies the points; points that are not measured become NaN. Rows may be padded and coordinates unaligned.
+/// A width or height of zero is an empty cloud, whatever the rest says.
 /// @throw CloudError for a layout that contradicts itself or has no x, y, z of FLOAT32 or FLOAT64; before anything is
 /// allocated, and without touching the cloud.
 void cloudFromLayout(const PointCloud2Layout& layout, Cloud& cloud);

@@ -12,7 +12,7 @@ namespace grasp_affordances
 {
 
 /// Sums over a neighborhood of the 35 monomials x^i y^j z^k of degree at most 4, in coordinates that are centred on the
-/// neighborhood and scaled by its radius. All that the Taubin fit and the principal axis need to know of the points.
+/// neighborhood and scaled by its radius. All that the Taubin fit needs to know of the points.
 class Moments
 {
 public:
@@ -61,8 +61,9 @@ struct TaubinFit
 /// generalized eigenproblem (M - lambda N) c = 0, smallest eigenvalue. The constant term, which has no gradient, is
 /// eliminated by its Schur complement, which leaves 9 x 9 matrices.
 ///
-/// Empty where the points determine no unique quadric. Points within 1e-5 of the radius of a common plane make N
-/// singular (their plane times any other plane fits); so do points on a line, coincident points and fewer than nine.
+/// Empty where the points determine no unique quadric. Points with an RMS distance below 5e-6 of the radius from a
+/// common plane make N singular (their plane times any other plane fits); so do points on a line, coincident points and
+/// fewer than nine.
 std::optional<TaubinFit> fitTaubin(const Neighborhood& neighborhood);
 
 /// The same from moments of the neighborhood with the given centre and radius.

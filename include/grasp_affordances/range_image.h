@@ -29,7 +29,7 @@ struct ReprojectionFit
 /// Empty where they are undetermined (no points, points of one column or row only) or where a point has z <= 0.
 std::optional<ReprojectionFit> estimateIntrinsics(const Cloud& cloud);
 
-/// The residual of given intrinsics. Empty where a point has z <= 0.
+/// The residual of given intrinsics. Empty where one of them is not finite, or a point has z <= 0.
 std::optional<ReprojectionFit> checkIntrinsics(const Cloud& cloud, const PinholeIntrinsics& intrinsics);
 
 /// An organized cloud seen as what it was measured as: a range image, whose pixels its points reproject to. Refers to
@@ -40,7 +40,7 @@ public:
   /// Points further than this (pixels) from their pixel show that the cloud is not in its optical frame.
   static constexpr double kMaxResidual = 4.0;
 
-  /// Empty where the cloud is organized no more, or its points do not reproject; `warning` then says why. Intrinsics
+  /// Empty where the cloud is not organized, or its points do not reproject; `warning` then says why. Intrinsics
   /// that the cloud carries and that do not fit are replaced by estimated ones, with a warning.
   static std::optional<RangeImage> create(const Cloud& cloud, std::string& warning);
 

@@ -86,7 +86,8 @@ private:
   void countPoints(const FittedCylinder& cylinder, const HandGeometry& hand, const ShellConfig& config);
   Extent wholeExtent(std::size_t step) const;
   Extent measuredExtent(std::size_t step, double points_to_block_slice) const;
-  Extent refinedExtent(const Extent& extent, double inner_radius, double outer_radius, double margin) const;
+  Extent refinedExtent(const Extent& extent, double inner_radius, double outer_radius, double margin,
+                       double max_length) const;
 
   Slices slices_;
   Neighborhood surroundings_;

@@ -85,6 +85,16 @@ Config presetConfig(const std::string& name)
 void validate(const Config& config)
 {
   visitParameters(config, RangeCheck());
+  const double steps = config.hand.capture_radius / config.shell.radius_step;
+  const double slices = config.shell.measure_length ? config.shell.max_length / config.shell.length_resolution : 1.0;
+  constexpr double kMostCells = 1e6;  // of the table in which the shell search counts points
+  if (steps * slices > kMostCells) {
+    std::ostringstream message;
+    message << "shell/radius_step: " << config.shell.radius_step << " m, with shell/length_resolution "
+            << config.shell.length_resolution << " m, is too fine for hand/capture_radius "
+            << config.hand.capture_radius << " m and shell/max_length " << config.shell.max_length << " m";
+    throw ParameterError(message.str());
+  }
   if (config.shell.measure_length && config.shell.max_length < config.shell.min_length) {
     std::ostringstream message;
     message << "shell/max_length: " << config.shell.max_length << " is below shell/min_length, "

@@ -14,12 +14,12 @@ namespace
 
 using Values = std::map<std::string, YAML::Node>;
 
-/// Nested maps become paths: {hand: {capture_radius: r}} is "hand/capture_radius".
+/// Nested maps become paths: {hand: {capture_radius: r}} is "hand/capture_radius". No parameter lies deeper than that.
 void flatten(const YAML::Node& map, const std::string& prefix, Values& values)
 {
   for (const auto& entry : map) {
     const auto name = prefix + entry.first.as<std::string>();
-    if (entry.second.IsMap()) {
+    if (entry.second.IsMap() && prefix.empty()) {
       flatten(entry.second, name + "/", values);
     } else {
       values[name] = entry.second;
@@ -116,12 +116,15 @@ Config configFromYaml(const std::string& text, const Config& base)
 Config configFromYamlFile(const std::string& path, const Config& base)
 {
   std::ifstream file(path);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) {
+  std::string text;
+  for (std::string line; std::getline(file, line);) {
+    text += line + '\n';
+  }
+  if (!file.is_open() || file.bad()) {
     throw ParameterError(path + ": cannot be read");
   }
   try {
-    return configFromYaml(text.str(), base);
+    return configFromYaml(text, base);
   } catch (const ParameterError& error) {
     throw ParameterError(path + ": " + error.what());
   }

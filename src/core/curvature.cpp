@@ -104,8 +104,6 @@ std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, con
   NeighborhoodCurvature result;
   result.median = median->magnitude / quadric.scale;
   result.axis = principalCurvature(quadric, median->x).axis;
-  const Eigen::Vector3d normal = quadric.gradient(median->x).normalized();
-  result.normal = normal.dot(local_sensor - median->x) >= 0.0 ? normal : -normal;
   result.concave = 2 * concave > points.size();
   return result;
 }

@@ -6,17 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace grasp_affordances
 {
 namespace
 {
-
-/// The one distance that decides what is inside a sphere.
-inline float squaredDistance(float dx, float dy, float dz)
-{
-  return dx * dx + dy * dy + dz * dz;
-}
 
 class WindowSearch : public NeighborhoodSearch
 {
@@ -38,7 +33,8 @@ public:
   {
     k = std::min(k, points_);
     // A disc of k pixels on a surface that faces the sensor, and a little more for one that does not.
-    double radius = 1.3 * std::sqrt(k / M_PI) * image_.spacing(center.z());
+    double radius =
+        1.3 * std::sqrt(k / M_PI) * image_.spacing(std::max(1e-3, std::abs(static_cast<double>(center.z()))));
     do {
       withinRadius(center, static_cast<float>(radius), result);
       radius *= 2.0;
@@ -78,7 +74,7 @@ public:
     }
     static thread_local std::vector<int> found;
     static thread_local std::vector<float> squared_distances;
-    tree_.radiusSearch(toPcl(center), kInflation * radius, found, squared_distances);
+    tree_.radiusSearch(toPcl(center), std::max(kInflation * radius, kSmallestRadius), found, squared_distances);
     std::sort(found.begin(), found.end());
     for (const int i : found) {
       result.appendPoint(cloud_, index_[i]);
@@ -88,20 +84,31 @@ public:
   void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override
   {
     k = std::min(k, index_.size());
-    if (k == 0) {
-      result.clear(center, 0.0F);
-      return;
-    }
     static thread_local std::vector<int> found;
     static thread_local std::vector<float> squared_distances;
-    tree_.nearestKSearch(toPcl(center), static_cast<int>(k), found, squared_distances);
-    const float furthest = *std::max_element(squared_distances.begin(), squared_distances.end());
-    withinRadius(center, static_cast<float>(kInflation * std::sqrt(furthest)), result);
+    double radius = kSmallestRadius;
+    if (k > 0) {
+      tree_.nearestKSearch(toPcl(center), static_cast<int>(k), found, squared_distances);
+      radius = std::max(radius,
+                        kInflation * std::sqrt(*std::max_element(squared_distances.begin(), squared_distances.end())));
+    }
+    // The tree gives fewer than k where squares overflow, and its idea of the k-th distance is not ours to the last
+    // bit.
+    withinRadius(center, static_cast<float>(radius), result);
+    for (; result.size() < k && radius < kLargestRadius; radius *= 2.0) {
+      withinRadius(center, static_cast<float>(radius), result);
+    }
+    if (result.size() < k) {
+      result.clear(center, std::numeric_limits<float>::infinity());
+      result.appendRange(cloud_, 0, cloud_.size());
+    }
     result.keepNearest(k);
   }
 
 private:
   static constexpr double kInflation = 1.0001;
+  static constexpr double kSmallestRadius = 1e-18;  // m; the tree finds nothing within a radius of zero
+  static constexpr double kLargestRadius = 1e18;    // m; the square of a larger one overflows
 
   static pcl::PointXYZ toPcl(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -143,7 +150,7 @@ void Neighborhood::appendRange(const Cloud& cloud, std::size_t begin, std::size_
     to_z[size] = pz;
     to_index[size] = static_cast<std::uint32_t>(i);
     // False for NaN: what was not measured is in no sphere.
-    size += squaredDistance(px - cx, py - cy, pz - cz) <= squared_radius ? 1 : 0;
+    size += squaredLength(px - cx, py - cy, pz - cz) <= squared_radius ? 1 : 0;
   }
   size_ = size;
 }
@@ -152,7 +159,7 @@ void Neighborhood::keepNearest(std::size_t k)
 {
   order_.clear();
   for (std::size_t i = 0; i < size_; ++i) {
-    order_.emplace_back(squaredDistance(x_[i] - center.x(), y_[i] - center.y(), z_[i] - center.z()), index_[i]);
+    order_.emplace_back(squaredLength(x_[i] - center.x(), y_[i] - center.y(), z_[i] - center.z()), index_[i]);
   }
   if (k == 0) {
     radius = 0.0F;
@@ -163,7 +170,7 @@ void Neighborhood::keepNearest(std::size_t k)
   const std::pair<float, std::uint32_t> last = order_[k - 1];
   std::size_t kept = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    const float squared = squaredDistance(x_[i] - center.x(), y_[i] - center.y(), z_[i] - center.z());
+    const float squared = squaredLength(x_[i] - center.x(), y_[i] - center.y(), z_[i] - center.z());
     if (std::make_pair(squared, index_[i]) <= last) {
       x_[kept] = x_[i];
       y_[kept] = y_[i];

@@ -13,7 +13,7 @@ bool occluded(const RangeImage& image, const Neighborhood& neighborhood, std::si
 {
   float closest = std::numeric_limits<float>::infinity();  // squared range
   for (std::size_t i = 0; i < neighborhood.size(); ++i) {
-    closest = std::min(closest, neighborhood.point(i).squaredNorm());
+    closest = std::min(closest, squaredLength(neighborhood.x()[i], neighborhood.y()[i], neighborhood.z()[i]));
   }
   if (min_distance > 0.0) {
     const double nearer = std::max(0.0, std::sqrt(static_cast<double>(closest)) - min_distance);
@@ -34,7 +34,7 @@ bool occluded(const RangeImage& image, const Neighborhood& neighborhood, std::si
     const std::size_t first = static_cast<std::size_t>(v) * cloud.width + static_cast<std::size_t>(window.u_begin);
     const float *x = &cloud.x[first], *y = &cloud.y[first], *z = &cloud.z[first];
     for (std::size_t i = 0; i < columns; ++i) {
-      const float range = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+      const float range = squaredLength(x[i], y[i], z[i]);
       const float along = x[i] * cx + y[i] * cy + z[i] * cz;
       // Bitwise, so that the loop has no branch; false for NaN.
       in_front += static_cast<std::uint32_t>(range < closest) & static_cast<std::uint32_t>(along >= least_along) &

@@ -1,6 +1,8 @@
 #include "grasp_affordances/point_cloud2.h"
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 
 namespace grasp_affordances
@@ -62,7 +64,8 @@ float read(const std::uint8_t* address)
 {
   T value;
   std::memcpy(&value, address, sizeof(T));
-  return static_cast<float>(value);
+  const bool representable = std::abs(value) <= static_cast<T>(std::numeric_limits<float>::max());
+  return representable ? static_cast<float>(value) : std::nanf("");
 }
 
 float readEither(const std::uint8_t* point, const Coordinate& coordinate)

@@ -190,7 +190,7 @@ std::optional<TaubinFit> fitTaubin(const Moments& moments, const Eigen::Vector3d
 {
   const auto [M, N] = scatterOf(moments);
 
-  // N's eigenvalues are the squares of lengths relative to the radius: a pivot of 1e-10 is a thickness of 1e-5.
+  // The smallest pivot is the square of twice the RMS thickness, relative to the radius.
   constexpr double kSmallestPivot = 1e-10;
   const Eigen::LLT<Matrix9> cholesky(N);
   const Vector9 pivots = cholesky.matrixLLT().diagonal();

@@ -90,6 +90,10 @@ std::string residualText(double residual)
 
 std::optional<ReprojectionFit> checkIntrinsics(const Cloud& cloud, const PinholeIntrinsics& intrinsics)
 {
+  const Eigen::Array4d values(intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy);
+  if (!values.isFinite().all()) {
+    return std::nullopt;
+  }
   ReprojectionFit fit{intrinsics, 0.0};
   const bool in_front = visitRays(cloud, [&](double u, double v, double slope_x, double slope_y) {
     const double du = std::abs(intrinsics.fx * slope_x + intrinsics.cx - u);
@@ -126,10 +130,10 @@ std::optional<RangeImage> RangeImage::create(const Cloud& cloud, std::string& wa
     if (given && given->max_residual <= kMaxResidual) {
       return RangeImage(cloud, *given);
     }
-    if (given) {
-      given_warning = "the camera's intrinsics miss the cloud's pixels by up to " + residualText(given->max_residual) +
-                      "; they were estimated from the cloud";
-    }
+    given_warning =
+        "the camera's intrinsics " +
+        (given ? "miss the cloud's pixels by up to " + residualText(given->max_residual) : "do not fit the cloud") +
+        "; they were estimated from the cloud";
   }
   const auto fit = estimateIntrinsics(cloud);
   if (!fit) {

@@ -63,18 +63,23 @@ ShellSearchResult ShellSearch::search(const NeighborhoodSearch& cloud, const Fit
   countPoints(cylinder, hand, config);
 
   const PointThresholds thresholds = pointThresholds(config, spacing);
-  const double block_density = thresholds.gap_points_to_block / config.clearance_length;
-  const double points_to_block_slice = std::max(2.0, 2.0 * block_density * slices_.thickness);
+  const double points_to_block_slice =
+      std::max(2.0, 2.0 * thresholds.gap_points_to_block * slices_.thickness / config.clearance_length);
+  const auto clear_and_occupied = [&](const Extent& extent) {
+    const double lengths = std::max(1.0, extent.length() / config.clearance_length);
+    return extent.inside >= lengths * thresholds.min_points_inside &&
+           extent.in_gap < lengths * thresholds.gap_points_to_block;
+  };
   for (std::size_t j = 0; j < steps_; ++j) {
     Extent extent = config.measure_length ? measuredExtent(j, points_to_block_slice) : wholeExtent(j);
-    const double points_to_block = block_density * std::max(extent.length(), config.clearance_length);
-    if (extent.inside < thresholds.min_points_inside || extent.in_gap >= points_to_block) {
+    if (!clear_and_occupied(extent)) {
       continue;
     }
     const double radius = steppedRadius(cylinder.radius, config.radius_step, j);
     if (config.measure_length) {
-      extent = refinedExtent(extent, radius, radius + hand.finger_thickness, std::max(spacing / 2, 1e-6));
-      if (extent.length() < config.min_length) {
+      extent =
+          refinedExtent(extent, radius, radius + hand.finger_thickness, std::max(spacing / 2, 1e-6), config.max_length);
+      if (extent.length() < config.min_length || !clear_and_occupied(extent)) {
         result.status = ShellSearchResult::too_short;
         continue;
       }
@@ -190,9 +195,9 @@ ShellSearch::Extent ShellSearch::measuredExtent(std::size_t step, double points_
 }
 
 /// From whole slices to the outermost points inside, each of which stands for a surface that goes on by `margin`, but
-/// not into slices that are not clear.
+/// not into slices that are not clear, and not beyond the length that is measured.
 ShellSearch::Extent ShellSearch::refinedExtent(const Extent& extent, double inner_radius, double outer_radius,
-                                               double margin) const
+                                               double margin, double max_length) const
 {
   Extent refined;
   refined.begin = std::numeric_limits<double>::infinity();
@@ -203,8 +208,8 @@ ShellSearch::Extent ShellSearch::refinedExtent(const Extent& extent, double inne
       refined.end = std::max(refined.end, point.along + margin);
     }
   }
-  refined.begin = std::max(refined.begin, extent.begin);
-  refined.end = std::min(refined.end, extent.end);
+  refined.begin = std::max({refined.begin, extent.begin, -max_length / 2});
+  refined.end = std::min({refined.end, extent.end, max_length / 2});
   for (const AxisPoint& point : points_) {
     if (point.along >= refined.begin && point.along <= refined.end) {
       refined.inside += point.radial <= inner_radius ? 1 : 0;

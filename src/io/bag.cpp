@@ -142,8 +142,9 @@ void visitMessages(rosbag::View& view, const BagVisitor& visitor)
 
 void readBagClouds(const std::string& path, const std::string& topic, const BagVisitor& visitor)
 {
-  if (std::filesystem::is_directory(path)) {
-    throw CloudError("is a folder");
+  const auto status = std::filesystem::status(path);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw CloudError(std::filesystem::is_directory(status) ? "is a folder" : "is no regular file");
   }
   try {
     rosbag::Bag bag(path, rosbag::bagmode::Read);

@@ -308,7 +308,9 @@ void checkAsciiPoints(const Header& header, std::istream& body)
     for (text += std::strspn(text, " \t\r"); *text != '\0'; text += std::strspn(text, " \t\r"), ++values) {
       char* end = nullptr;
       std::strtod(text, &end);
-      if (end == text || std::strchr(" \t\r", *end) == nullptr) {
+      const bool hexadecimal =
+          std::find_if(text, static_cast<const char*>(end), [](char c) { return c == 'x' || c == 'X'; }) != end;
+      if (end == text || std::strchr(" \t\r", *end) == nullptr || hexadecimal) {
         throw CloudError("point " + std::to_string(points) + " of the PCD file holds something that is no number");
       }
       text = end;

@@ -16,8 +16,8 @@
 #include <boost/make_shared.hpp>
 #include <pluginlib/class_list_macros.hpp>
 
-#include <atomic>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -58,8 +58,12 @@ public:
   ~LocalizerNodelet() override
   {
     // In this order: no more clouds come in, then the last one is finished while its publishers still exist.
-    points_.shutdown();
-    camera_info_.shutdown();
+    {
+      const std::lock_guard<std::mutex> lock(subscriptions_mutex_);
+      closing_ = true;
+      points_.shutdown();
+      camera_info_.shutdown();
+    }
     worker_.reset();
   }
 
@@ -77,7 +81,8 @@ private:
   void publish(const Localization& localization, const std_msgs::Header& header);
 
   bool lazy_ = true;
-  std::mutex subscriptions_mutex_;  // guards the publishers and subscribers
+  std::mutex subscriptions_mutex_;  // guards the publishers, the subscribers and closing_
+  bool closing_ = false;            // a connection that is under way must not subscribe again
   ros::Publisher shells_;
   ros::Publisher markers_;
   ros::Publisher statistics_;
@@ -87,8 +92,9 @@ private:
   std::mutex camera_mutex_;
   Camera camera_;  // the latest, null before the first
 
-  std::atomic<std::uint64_t> received_{0};
-  std::atomic<std::uint64_t> dropped_{0};
+  std::mutex counters_mutex_;  // guards received_ and dropped_, which are read and written together
+  std::uint64_t received_ = 0;
+  std::uint64_t dropped_ = 0;
 
   // Of the worker's thread.
   std::unique_ptr<Localizer> localizer_;
@@ -133,6 +139,9 @@ bool LocalizerNodelet::anybodyListens() const
 void LocalizerNodelet::updateSubscriptions()
 {
   const std::lock_guard<std::mutex> lock(subscriptions_mutex_);
+  if (closing_) {
+    return;
+  }
   if (lazy_ && !anybodyListens()) {
     points_.shutdown();
     camera_info_.shutdown();
@@ -149,10 +158,9 @@ void LocalizerNodelet::updateSubscriptions()
 
 void LocalizerNodelet::receive(const Points& message)
 {
+  const std::lock_guard<std::mutex> lock(counters_mutex_);
   ++received_;
-  if (worker_->put(message)) {
-    ++dropped_;
-  }
+  dropped_ += worker_->put(message) ? 1 : 0;
 }
 
 void LocalizerNodelet::process(const Points& message)
@@ -163,7 +171,7 @@ void LocalizerNodelet::process(const Points& message)
     const Localization localization = localizer_->localize(cloud_);
     ++processed_;
     publish(localization, message->header);
-  } catch (const CloudError& error) {
+  } catch (const std::exception& error) {  // CloudError, or no memory for what a cloud asks for
     ++rejected_;
     NODELET_ERROR_STREAM_THROTTLE(kThrottlePeriod, "cloud rejected: " << error.what());
   }
@@ -196,8 +204,11 @@ void LocalizerNodelet::publish(const Localization& localization, const std_msgs:
       boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, localizer_->config(), header));
   statistics->clouds_processed = processed_;
   statistics->clouds_rejected = rejected_;
-  statistics->clouds_dropped = dropped_;
-  statistics->clouds_received = received_;
+  {
+    const std::lock_guard<std::mutex> lock(counters_mutex_);
+    statistics->clouds_dropped = dropped_;
+    statistics->clouds_received = received_;
+  }
 
   shells_.publish(boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header)));
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));

@@ -2,6 +2,8 @@
 
 #include "nodelets/conversions.h"
 
+#include <algorithm>
+
 namespace grasp_affordances
 {
 namespace
@@ -74,7 +76,7 @@ visualization_msgs::MarkerArray ShellMarkers::update(const Localization& localiz
     array.markers.push_back(marker(header, kShells, i, Marker::DELETE));
     array.markers.push_back(marker(header, kAxes, i, Marker::DELETE));
   }
-  drawn_ = localization.shells.size();
+  drawn_ = std::max(drawn_, localization.shells.size());
   return array;
 }
 

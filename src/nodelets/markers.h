@@ -16,13 +16,13 @@ namespace grasp_affordances
 class ShellMarkers
 {
 public:
-  /// Markers of the shells, and deletions of those of the previous call that have no successor. The first call also
-  /// deletes whatever an earlier publisher left behind.
+  /// Markers of the shells, and deletions of all other ids that were ever used: a viewer that missed an array shows no
+  /// stale marker after the next one. The first call also deletes whatever an earlier publisher left behind.
   visualization_msgs::MarkerArray update(const Localization& localization, const std_msgs::Header& header);
 
 private:
   bool first_ = true;
-  std::size_t drawn_ = 0;  // shells of the previous call
+  std::size_t drawn_ = 0;  // most shells of any call
 };
 
 }  // namespace grasp_affordances

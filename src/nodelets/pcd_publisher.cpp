@@ -1,5 +1,6 @@
 #include "grasp_affordances/point_cloud2.h"
 #include "io/pcd.h"
+#include "nodelets/parameter_reader.h"
 
 #include <pcl_conversions/pcl_conversions.h>
 #include <ros/ros.h>
@@ -39,23 +40,27 @@ int main(int argc, char** argv)
   ros::init(argc, argv, "pcd_publisher");
   ros::NodeHandle nh;
   ros::NodeHandle private_nh("~");
-  const std::string file = private_nh.param("file", std::string());
-  const double rate = private_nh.param("rate", 10.0);
-  if (file.empty() || !(rate >= 0.0)) {
-    ROS_FATAL("parameter ~file ('%s') must name a PCD file, and ~rate (%g) be at least 0 Hz", file.c_str(), rate);
-    return 1;
-  }
-
+  std::string file, frame_id = "camera_depth_optical_frame";
+  double rate = 10.0;
   sensor_msgs::PointCloud2 message;
   try {
+    grasp_affordances::ParameterReader read(private_nh);
+    read("file", file, "the path of a PCD file");
+    read("frame_id", frame_id, "the name of a frame");
+    read("rate", rate, grasp_affordances::Range<double>{0.0, 1000.0}, "Hz", "");
+    read.refuseRemaining();
     message = messageFromPcd(file);
+  } catch (const grasp_affordances::ParameterError& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
   } catch (const grasp_affordances::CloudError& error) {
     ROS_FATAL("%s: %s", file.c_str(), error.what());
     return 1;
   }
-  message.header.frame_id = private_nh.param("frame_id", std::string("camera_depth_optical_frame"));
+  message.header.frame_id = frame_id;
 
-  const bool once = rate == 0.0;
+  constexpr double kSlowest = 0.001;  // Hz; below it is once
+  const bool once = rate < kSlowest;
   ros::Publisher publisher = nh.advertise<sensor_msgs::PointCloud2>("points", 1, once);
   if (once) {
     message.header.stamp = ros::Time::now();

@@ -26,7 +26,7 @@ constexpr ParameterOption kParameterOptions[] = {
     {"--samples", "N", "sampling/samples", "neighborhoods drawn per cloud"},
     {"--capture-radius", "R", "hand/capture_radius", "of the hand, m"},
     {"--finger-thickness", "T", "hand/finger_thickness", "gap that must be clear, m"},
-    {"--min-length", "L", "shell/min_length", "shortest affordance along its axis, m"},
+    {"--min-length", "L", "shell/min_length", "shortest affordance along its axis, m; has it measured in any preset"},
     {"--neighborhood", "KIND", "neighborhood/kind", "radius or knn"},
     {"--estimator", "NAME", "estimation/estimator", "taubin, pca or normals"},
     {"--threads", "N", "threads", "that work on a cloud; 0: one per core"},
@@ -58,6 +58,9 @@ public:
       } else {
         root[path.substr(0, slash)][path.substr(slash + 1)] = values_.at(option.name);
       }
+    }
+    if (app_.count("--min-length") > 0) {
+      root["shell"]["measure_length"] = true;
     }
     return YAML::Dump(root);
   }

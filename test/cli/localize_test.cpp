@@ -590,6 +590,11 @@ TEST_F(LocalizeTest, readsConfigOverPresetAndOptionsOverBoth)
     EXPECT_EQ(shell["thickness"], 0.005);
     EXPECT_GE(shell["length"], 0.05 - 1e-9);
   }
+  const Json paper = localize("--json --samples 2000 --preset paper --min-length 0.05 table.pcd").json().at(0);
+  ASSERT_FALSE(paper["shells"].empty());
+  for (const Json& shell : paper["shells"]) {
+    EXPECT_GE(shell["length"], 0.05 - 1e-9) << "measured, since a least length is asked for";
+  }
 }
 
 TEST_F(LocalizeTest, drawsPictures)

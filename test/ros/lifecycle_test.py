@@ -11,7 +11,7 @@ from grasp_affordances.msg import LocalizationStatistics
 from helpers import Listener, Process, publisher, scene, wait_until
 
 BAD_PARAMETERS = (('hand/capture_radius', 0.7, '[0.002, 0.5] m'),
-                  ('sampling/samples', 12.5, 'an integer in [1, 10000000]'),
+                  ('sampling/samples', 12.5, 'an integer in [1, 1000000]'),
                   ('estimation/estimator', 'taubing', 'taubing'),
                   ('shell/min_lenght', 0.03, 'unknown name'))
 ABNORMAL_ENDS = ('boost', 'mutex', 'terminate', 'Assertion', 'rror:')
@@ -104,6 +104,16 @@ class Lifecycle(unittest.TestCase):
         with publisher('/nowhere/cloud.pcd') as node:
             self.assertEqual(node.wait(15), 1)
             self.assertIn('/nowhere/cloud.pcd', node.output())
+
+    def test_publisher_refuses_bad_parameters(self):
+        for name, value, text in (('rate', -1, '[0, 1000] Hz'), ('rate', 'fast', '[0, 1000] Hz'),
+                                  ('frame_id', 5, 'the name of a frame'), ('rat', 3, 'unknown name')):
+            with Process('grasp_affordances', 'pcd_publisher', '_file:=' + scene('table'),
+                         '_%s:=%s' % (name, value)) as node:
+                self.assertEqual(node.wait(15), 1, node.output())
+                for part in ('~' + name, str(value), text):
+                    self.assertIn(part, node.output())
+            rospy.delete_param('pcd_publisher')
 
     def test_eager_node_subscribes_without_a_listener(self):
         with localizer('_lazy:=false'):

@@ -75,7 +75,16 @@ TEST(NodeParameters, AnIntegerIsFineForARealNumberButNotTheOtherWayRound)
   const std::string text = refusal("sampling", "samples", 500.0);
   EXPECT_TRUE(contains(text, "~sampling/samples")) << text;
   EXPECT_TRUE(contains(text, "500")) << text;
-  EXPECT_TRUE(contains(text, "an integer in [1, 10000000]")) << text;
+  EXPECT_TRUE(contains(text, "an integer in [1, 1000000]")) << text;
+}
+
+TEST(NodeParameters, ASeedBeyond32BitsIsAWholeRealNumber)
+{
+  XmlRpcValue parameters;
+  parameters["sampling"]["seed"] = 9007199254740991.0;
+  EXPECT_EQ(nodeParameters(parameters).config.sampling.seed, 9007199254740991U);
+  EXPECT_TRUE(contains(refusal("sampling", "seed", 1.5), "an integer"));
+  EXPECT_TRUE(contains(refusal("sampling", "seed", 9007199254740992.0), "[0, 9007199254740991]"));
 }
 
 TEST(NodeParameters, RefusesValuesOutsideTheirRangeWithNameValueAndRange)

@@ -25,20 +25,32 @@ inline std::map<std::uint32_t, int> labelsWithin(const Shell& shell, const Cloud
   return counts;
 }
 
-/// The affordance that a shell finds: the one with most points, where the points of affordances are no fewer than the
-/// others. 0: none, the shell is wrong. Labels: 0 is not graspable.
-inline std::uint32_t affordanceFound(const Shell& shell, const Cloud& cloud, const std::vector<std::uint32_t>& labels)
+constexpr std::uint32_t kDoubtful = 255;
+
+struct Verdict
 {
-  int graspable = 0, other = 0, most = 0;
-  std::uint32_t found = 0;
+  bool right = false;
+  bool wrong = false;            // neither: on something doubtful, and not counted
+  std::uint32_t affordance = 0;  // that a right shell finds: the one with most points
+};
+
+/// Right where the points of affordances (labels from 1 on) are no fewer than those of what is not graspable (label 0);
+/// not counted where that is outnumbered by doubtful ones; else wrong.
+inline Verdict judge(const Shell& shell, const Cloud& cloud, const std::vector<std::uint32_t>& labels)
+{
+  int graspable = 0, other = 0, doubtful = 0, most = 0;
+  Verdict verdict;
   for (const auto& [label, count] : labelsWithin(shell, cloud, labels)) {
-    (label == 0 ? other : graspable) += count;
-    if (label != 0 && count > most) {
+    (label == 0 ? other : label == kDoubtful ? doubtful : graspable) += count;
+    if (label != 0 && label != kDoubtful && count > most) {
       most = count;
-      found = label;
+      verdict.affordance = label;
     }
   }
-  return graspable > 0 && graspable >= other ? found : 0;
+  verdict.right = graspable > 0 && graspable >= other;
+  verdict.wrong = !verdict.right && doubtful <= other;
+  verdict.affordance = verdict.right ? verdict.affordance : 0;
+  return verdict;
 }
 
 }  // namespace grasp_affordances::test

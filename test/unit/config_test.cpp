@@ -146,6 +146,11 @@ TEST(ConfigFromYaml, OverridesWhatItNames)
   EXPECT_EQ(configFromYaml("", config).preset, "paper") << "an empty file changes nothing";
 }
 
+TEST(ConfigFromYaml, ReadsAnEmptyFile)
+{
+  EXPECT_EQ(configFromYamlFile("/dev/null", presetConfig("paper")).preset, "paper");
+}
+
 TEST(ConfigFromYaml, RefusesWithNameValueAndRange)
 {
   EXPECT_EQ(messageOf("hand: {capture_radius: 7}"),
@@ -161,7 +166,12 @@ TEST(ConfigFromYaml, RefusesWithNameValueAndRange)
   EXPECT_NE(messageOf("hand: {capture_radius: .nan}").find("outside"), std::string::npos);
   EXPECT_NE(messageOf("a: [").find("no YAML"), std::string::npos);
   EXPECT_NE(messageOf("shell: {min_length: 0.2}").find("shell/max_length"), std::string::npos);
+  EXPECT_EQ(messageOf("hand: &a {x: *a}").find("hand/x: no such parameter"), 0U) << "refers to itself";
+  EXPECT_NE(messageOf("shell: {radius_step: 0.0001, length_resolution: 0.0005}\nhand: {capture_radius: 0.5}")
+                .find("too fine"),
+            std::string::npos);
   EXPECT_THROW(configFromYamlFile("/nonexistent.yaml", Config()), ParameterError);
+  EXPECT_THROW(configFromYamlFile("/", Config()), ParameterError);
 }
 
 /// Puts every number outside its range, one at a time.

@@ -29,6 +29,8 @@ void expectSound(const Localization& result, const std::string& what)
     EXPECT_NEAR(shell.axis.dot(shell.normal), 0.0, 1e-9) << what;
     EXPECT_GT(shell.axis.maxCoeff(), -shell.axis.minCoeff()) << what << ": largest component positive";
     EXPECT_TRUE(std::isfinite(shell.inner_radius) && std::isfinite(shell.length)) << what;
+    EXPECT_TRUE(std::isnan(shell.curvature) || (std::isfinite(shell.curvature) && shell.curvature > 0.0)) << what;
+    EXPECT_TRUE(std::isnan(shell.observed_free) || (shell.observed_free >= 0.0 && shell.observed_free <= 1.0)) << what;
   }
 }
 
@@ -91,18 +93,20 @@ TEST_P(EveryVariation, FindsTheSameWithAnyNumberOfThreads)
 TEST_P(EveryVariation, AnswersDegenerateClouds)
 {
   Random random(1);
-  Points plane, line, sheets;
+  Points plane, line, sheets, twins;
   for (int i = 0; i < 3000; ++i) {
     const double x = random.uniform(-0.1, 0.1), y = random.uniform(-0.1, 0.1);
     plane.emplace_back(x, y, 1.0);
     line.emplace_back(x, 0.5 * x, 1.0 + x);
     sheets.emplace_back(x, y, i % 2 == 0 ? 1.0 : 1.0 + 0x1p-8);
+    twins.emplace_back(i % 2 == 0 ? 0.0 : 0.1, 0.0, 1.0);
   }
   Config config = this->config();
   config.sampling.samples = 100;
   Localizer localizer(config);
   for (const auto& [name, points] : {std::pair<std::string, Points>{"plane", plane},
                                      {"line", line},
+                                     {"twins", twins},
                                      {"sheets", sheets},
                                      {"one point", {{0, 0, 1}}},
                                      {"two points", {{0, 0, 1}, {0, 0.01, 1}}}}) {
@@ -121,6 +125,8 @@ INSTANTIATE_TEST_SUITE_P(Localizer, EveryVariation,
                                          Variation{"paper", Estimator::taubin, NeighborhoodKind::knn},
                                          Variation{"paper", Estimator::pca, NeighborhoodKind::knn},
                                          Variation{"localizer", Estimator::pca, NeighborhoodKind::radius},
+                                         Variation{"paper", Estimator::pca, NeighborhoodKind::radius},
+                                         Variation{"paper", Estimator::normals, NeighborhoodKind::knn},
                                          Variation{"paper", Estimator::normals, NeighborhoodKind::radius}),
                          [](const testing::TestParamInfo<Variation>& info) {
                            return info.param.preset + "_" +
@@ -173,7 +179,7 @@ TEST_P(TableScene, HasItsThreeAffordancesFoundInEverySeed)
     expectSound(result, "seed " + std::to_string(seed));
     std::set<std::uint32_t> found;
     for (const Shell& shell : result.shells) {
-      found.insert(affordanceFound(shell, frame.cloud, frame.labels));
+      found.insert(judge(shell, frame.cloud, frame.labels).affordance);
     }
     for (const std::uint32_t label : {1, 2, 3}) {
       EXPECT_EQ(found.count(label), 1U) << "affordance " << label << ", seed " << seed;
@@ -219,7 +225,7 @@ TEST(Localizer, FindsTheHandleOfAMugButNotItsInside)
   const Localization small_hand = Localizer(config).localize(frame.cloud);
   bool handle_found = false;
   for (const Shell& shell : small_hand.shells) {
-    handle_found = handle_found || affordanceFound(shell, frame.cloud, frame.labels) == 1;
+    handle_found = handle_found || judge(shell, frame.cloud, frame.labels).affordance == 1;
     EXPECT_FALSE(insideTheMug(shell.point_index));
   }
   EXPECT_TRUE(handle_found);
@@ -326,7 +332,7 @@ TEST(Localizer, WorksOnCloudsWithoutARangeImage)
     for (const Shell& shell : result.shells) {
       EXPECT_TRUE(std::isnan(shell.observed_free));
       EXPECT_GE(shell.normal.dot(cloud->sensor_origin.cast<double>() - shell.centroid), 0.0);
-      found.insert(affordanceFound(shell, *cloud, frame.labels));
+      found.insert(judge(shell, *cloud, frame.labels).affordance);
     }
     EXPECT_EQ(found.count(3), 1U) << "the bar";
   }

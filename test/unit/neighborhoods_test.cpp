@@ -120,6 +120,45 @@ TEST(NeighborhoodSearch, BreaksTiesByIndex)
   EXPECT_EQ(indicesOf(nearest), (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
+TEST(NeighborhoodSearch, FindsCoincidentPoints)
+{
+  const Cloud cloud = cloudOf(Points(20, Eigen::Vector3d(0.1, 0.2, 1.0)));
+  const auto tree = makeTreeSearch(cloud);
+  Neighborhood found;
+  tree->nearest(cloud.point(0), 10, found);
+  EXPECT_EQ(indicesOf(found), (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(found.radius, 0.0F);
+  tree->withinRadius(cloud.point(0), 0.0F, found);
+  EXPECT_EQ(found.size(), 20U);
+}
+
+TEST(NeighborhoodSearch, FindsPointsWhoseDistancesOverflow)
+{
+  Points points;
+  for (int i = 0; i < 12; ++i) {
+    points.emplace_back(i % 2 == 0 ? 1e19 : -1e19, 0, i);
+  }
+  const Cloud cloud = cloudOf(points);
+  Neighborhood found;
+  makeTreeSearch(cloud)->nearest(cloud.point(0), 12, found);
+  EXPECT_EQ(found.size(), 12U);
+}
+
+TEST(NeighborhoodSearch, FindsNeighborsOfAnyPlace)
+{
+  const Cloud cloud = captureScene("empty_table", 1).cloud;
+  std::string warning;
+  const auto image = RangeImage::create(cloud, warning);
+  ASSERT_TRUE(image) << warning;
+  Neighborhood from_window, from_tree;
+  for (const Eigen::Vector3f& place : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(0.1F, 0, -0.5F)}) {
+    makeWindowSearch(*image, measuredPoints(cloud))->nearest(place, 50, from_window);
+    makeTreeSearch(cloud)->nearest(place, 50, from_tree);
+    EXPECT_EQ(indicesOf(from_window), indicesOf(from_tree));
+    EXPECT_EQ(from_window.size(), 50U);
+  }
+}
+
 TEST(NeighborhoodSearch, GivesAllPointsWhereThereAreFewerThanK)
 {
   const Cloud cloud = cloudOf({{0, 0, 1}, {0.3, 0, 1}, {0, 5, 1}});
@@ -154,6 +193,17 @@ TEST(RangeImage, ReplacesIntrinsicsThatDoNotFit)
   ASSERT_TRUE(image);
   EXPECT_NE(warning.find("estimated"), std::string::npos) << warning;
   EXPECT_NEAR(image->intrinsics().fx, 525.0, 1e-2);
+}
+
+TEST(RangeImage, ReplacesIntrinsicsThatAreNotFinite)
+{
+  Cloud cloud = captureScene("table", 1).cloud;
+  cloud.intrinsics->cx = std::nan("");
+  std::string warning;
+  const auto image = RangeImage::create(cloud, warning);
+  ASSERT_TRUE(image);
+  EXPECT_NE(warning.find("estimated"), std::string::npos) << warning;
+  EXPECT_NEAR(image->intrinsics().cx, 319.5, 1e-2);
 }
 
 TEST(RangeImage, RefusesACloudThatWasMoved)

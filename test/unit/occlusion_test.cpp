@@ -62,6 +62,20 @@ TEST(Occlusion, NeedsMoreThanTheAllowedPoints)
   EXPECT_TRUE(occludedAt(cloud, {0.02, 0, 1.2}, 19, 0.0));
 }
 
+TEST(Occlusion, IsNeverThatOfANeighborhoodByItself)
+{
+  for (int i = 0; i < 100; ++i) {
+    // A small ball, all of it in the neighborhood, somewhere in the picture.
+    const double x = -0.1 + 0.002 * i, z = 0.7 + 0.003 * i, r = 0.01;
+    const Cloud cloud = renderDepth([&](double sx, double sy) {
+      const double a = sx * sx + sy * sy + 1, b = sx * x + z, c = x * x + z * z - r * r;
+      const double discriminant = b * b - a * c;
+      return discriminant < 0 ? std::nan("") : (b - std::sqrt(discriminant)) / a;
+    });
+    EXPECT_FALSE(occludedAt(cloud, {x, 0, z}, 0, 0.0)) << i;
+  }
+}
+
 TEST(Occlusion, OfASlopingPlaneByItselfDependsOnTheDistanceAsked)
 {
   // A plane that slopes by 50 degrees: z = 1 + x tan(50), seen along rays x = s z.

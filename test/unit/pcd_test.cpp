@@ -304,6 +304,7 @@ TEST_F(PcdTest, refusesPromisesThatTheFileDoesNotHold)
   refuse(kTwo, "POINTS 2\n", "DATA ascii\n", "1 2 3 4\n4 5 6\n", "point 1 of the PCD file has 4 values");
   refuse(kTwo, "POINTS 2\n", "DATA ascii\n", "1 2 3\n4 5 six\n", "no number");
   refuse(kTwo, "POINTS 2\n", "DATA ascii\n", "1 2 3\n4 5 6x\n", "no number");
+  refuse(kTwo, "POINTS 2\n", "DATA ascii\n", "1 2 3\n4 5 0x6\n", "no number");
 
   const std::string good = block(kTwoPointsByField);
   const char* const kCompressed = "DATA binary_compressed\n";

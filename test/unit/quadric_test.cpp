@@ -354,8 +354,8 @@ TEST(SmallestEigenpair, AgreesWithTheFullDecomposition)
   constexpr int kMatrices = 500;
   for (int i = 0; i < kMatrices; ++i) {
     Eigen::Matrix<double, 9, 9> factor;
-    for (double& value : factor.reshaped()) {
-      value = random.normal();
+    for (Eigen::Index j = 0; j < factor.size(); ++j) {
+      factor(j) = random.normal();
     }
     factor.row(0) *= std::pow(10.0, -random.uniform(0.0, 6.0));
     const Matrix matrix = factor.transpose() * factor;

@@ -99,6 +99,14 @@ TEST_P(BothPresets, RefuseTooFewPoints)
   EXPECT_NE(searchShell({}, 0.0121, config()).status, ShellSearchResult::found);
 }
 
+TEST(ShellSearch, AsksForMorePointsOverALongerExtent)
+{
+  const ShellConfig config = localizerShell();
+  Points sparse = bar(0.012, 0.1);
+  sparse.resize(100);  // 30 over the clearance length of 3 cm, where 40 are asked for
+  EXPECT_NE(searchShell(sparse, 0.0121, config).status, ShellSearchResult::found);
+}
+
 INSTANTIATE_TEST_SUITE_P(ShellSearch, BothPresets, testing::Values("paper", "localizer"),
                          [](const testing::TestParamInfo<std::string>& info) { return info.param; });
 
@@ -164,15 +172,27 @@ TEST(MeasuredLength, EndsWhereTheBarMeetsAWall)
   EXPECT_GE(end, 0.02 - 0.003 - kSpacing) << "by at most one slice too short";
 }
 
-TEST(MeasuredLength, IsShortAtTheTipOfACone)
+TEST(MeasuredLength, IsNotBeyondTheLongestThatIsMeasured)
 {
+  const ShellConfig config = localizerShell();
+  const auto found = searchShell(bar(0.012, 0.2), 0.0121, config);
+  ASSERT_EQ(found.status, ShellSearchResult::found);
+  EXPECT_NEAR(found.length, config.max_length, 1e-12);
+}
+
+TEST(MeasuredLength, IsThatOverWhichTheSurfaceFillsTheShell)
+{
+  // A slim cone: any part of it fits into some shell.
   Points cone;
   Random random(3);
-  for (int i = 0; i < 4000; ++i) {
-    const double z = random.uniform(0.0, 0.04), angle = random.uniform(0, 2 * M_PI);
-    cone.emplace_back(z * std::cos(angle), z * std::sin(angle), z - 0.01);
+  for (int i = 0; i < 6000; ++i) {
+    const double z = random.uniform(0.0, 0.09), angle = random.uniform(0, 2 * M_PI);
+    cone.emplace_back(0.36 * z * std::cos(angle), 0.36 * z * std::sin(angle), z - 0.04);
   }
-  EXPECT_NE(searchShell(cone, 0.01, localizerShell()).status, ShellSearchResult::found);
+  ShellConfig config = localizerShell();
+  EXPECT_EQ(searchShell(cone, 0.01, config).status, ShellSearchResult::too_short);
+  config.min_fill = 0.0;
+  EXPECT_EQ(searchShell(cone, 0.01, config).status, ShellSearchResult::found);
 }
 
 TEST(PointThresholds, FollowTheDensityOfPoints)

@@ -1,0 +1,106 @@
+#include "nodelets/parameter_reader.h"
+
+namespace grasp_affordances
+{
+namespace
+{
+
+using XmlRpc::XmlRpcValue;
+
+void flatten(XmlRpcValue value, const std::string& path, std::map<std::string, XmlRpcValue>& flat)
+{
+  if (value.getType() != XmlRpcValue::TypeStruct) {
+    flat[path] = value;
+    return;
+  }
+  for (auto& member : value) {
+    flatten(member.second, path.empty() ? member.first : path + "/" + member.first, flat);
+  }
+}
+
+std::string valueText(const XmlRpcValue& value)
+{
+  std::ostringstream text;
+  switch (value.getType()) {
+    case XmlRpcValue::TypeBoolean:
+      text << (static_cast<const bool&>(value) ? "true" : "false");
+      break;
+    case XmlRpcValue::TypeInt:
+      text << "the integer " << value;
+      break;
+    case XmlRpcValue::TypeDouble:
+      text << "the real number " << value;
+      break;
+    case XmlRpcValue::TypeString:
+      text << "the string '" << value << "'";
+      break;
+    default:
+      text << value;
+  }
+  return text.str();
+}
+
+}  // namespace
+
+ParameterReader::ParameterReader(const XmlRpcValue& parameters)
+{
+  flatten(parameters, "", parameters_);
+}
+
+ParameterReader::ParameterReader(const ros::NodeHandle& private_node_handle)
+{
+  XmlRpcValue parameters;
+  if (private_node_handle.getParam(private_node_handle.getNamespace(), parameters)) {
+    flatten(parameters, "", parameters_);
+  }
+}
+
+void ParameterReader::operator()(const std::string& name, bool& field, const std::string& /*description*/)
+{
+  const XmlRpcValue value = take(name);
+  if (!value.valid()) {
+    return;
+  }
+  if (value.getType() != XmlRpcValue::TypeBoolean) {
+    throw refusal(name, value, "true or false");
+  }
+  field = static_cast<const bool&>(value);
+}
+
+void ParameterReader::operator()(const std::string& name, std::string& field, const std::string& allowed)
+{
+  const XmlRpcValue value = take(name);
+  if (!value.valid()) {
+    return;
+  }
+  if (value.getType() != XmlRpcValue::TypeString) {
+    throw refusal(name, value, allowed);
+  }
+  field = static_cast<const std::string&>(value);
+}
+
+void ParameterReader::refuseRemaining() const
+{
+  if (!parameters_.empty()) {
+    const auto& [name, value] = *parameters_.begin();
+    throw ParameterError("parameter ~" + name + " (" + valueText(value) + ") has an unknown name");
+  }
+}
+
+ParameterError ParameterReader::refusal(const std::string& name, const XmlRpcValue& value, const std::string& allowed)
+{
+  return ParameterError("parameter ~" + name + " is " + valueText(value) + "; it must be " + allowed);
+}
+
+XmlRpcValue ParameterReader::take(const std::string& name)
+{
+  const auto found = parameters_.find(name);
+  if (found == parameters_.end()) {
+    return XmlRpcValue();
+  }
+  const XmlRpcValue value = found->second;
+  parameters_.erase(found);
+  return value;
+}
+
+}  // namespace grasp_affordances
