@@ -5,17 +5,20 @@
 namespace grasp_affordances
 {
 
-/// Counter-based random bits (SplitMix64): the value depends on the seed and the counters alone, so that every sample
-/// draws for itself, in any order, on any thread, with the same result on any platform.
+/// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014): a hash of 64 bits.
+inline std::uint64_t splitMix64(std::uint64_t x)
+{
+  x += 0x9E3779B97F4A7C15U;
+  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+  return x ^ (x >> 31U);
+}
+
+/// Counter-based random bits: the value depends on the seed and the counters alone, so that every sample draws for
+/// itself, in any order, on any thread, with the same result on any platform.
 inline std::uint64_t randomBits(std::uint64_t seed, std::uint64_t counter, std::uint64_t stream = 0)
 {
-  const auto mix = [](std::uint64_t s) {
-    s += 0x9E3779B97F4A7C15U;
-    s = (s ^ (s >> 30U)) * 0xBF58476D1CE4E5B9U;
-    s = (s ^ (s >> 27U)) * 0x94D049BB133111EBU;
-    return s ^ (s >> 31U);
-  };
-  return mix(mix(mix(seed) + counter) + stream);
+  return splitMix64(splitMix64(splitMix64(seed) + counter) + stream);
 }
 
 /// A draw from 0, ..., count - 1; `count` must be at least 1. Uniform to within count / 2^32.

@@ -74,8 +74,6 @@ Eigen::Vector3d normalTowards(const Eigen::Vector3d& sensor, const Eigen::Vector
   return across.norm() > kAlongAxis ? across.normalized() : axis.unitOrthogonal();
 }
 
-}  // namespace
-
 /// Examines one sample after another with the working memory of one thread.
 class SampleKernel
 {
@@ -223,6 +221,8 @@ Outcome SampleKernel::fitShell(const PreparedCloud& prepared, const Config& conf
   const bool unobserved = shell.observed_free < config.shell.min_observed_free;  // false for NaN
   return config.shell.require_observed_gap && unobserved ? Outcome::unobserved_gap : Outcome::shell;
 }
+
+}  // namespace
 
 class Localizer::Implementation
 {

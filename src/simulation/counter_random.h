@@ -1,5 +1,7 @@
 #pragma once
 
+#include "grasp_affordances/random.h"
+
 #include <cstdint>
 
 namespace grasp_affordances
@@ -20,11 +22,11 @@ class CounterRandom
 {
 public:
   CounterRandom(std::uint64_t seed, RandomStream stream, std::uint64_t index = 0)
-      : key_(hash(hash(hash(seed) + static_cast<std::uint64_t>(stream)) + index))
+      : key_(randomBits(seed, static_cast<std::uint64_t>(stream), index))
   {
   }
 
-  std::uint64_t bits() { return hash(key_ + counter_++); }
+  std::uint64_t bits() { return splitMix64(key_ + counter_++); }
 
   /// In [0, 1).
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
@@ -47,15 +49,6 @@ public:
   }
 
 private:
-  /// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
-  static std::uint64_t hash(std::uint64_t x)
-  {
-    x += 0x9e3779b97f4a7c15;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-    return x ^ (x >> 31);
-  }
-
   std::uint64_t key_;
   std::uint64_t counter_ = 0;
 };

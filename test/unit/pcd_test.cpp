@@ -1,11 +1,12 @@
 #include "io/pcd.h"
 
+#include "support/allocations.h"
+
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -13,36 +14,11 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <new>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <unistd.h>
-
-namespace
-{
-std::atomic<std::size_t> largest_allocation{0};
-}
-
-void* operator new(std::size_t size)
-{
-  std::size_t largest = largest_allocation;
-  while (size > largest && !largest_allocation.compare_exchange_weak(largest, size)) {
-  }
-  if (void* memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept
-{
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept
-{
-  std::free(memory);
-}
 
 namespace grasp_affordances
 {
@@ -100,13 +76,13 @@ protected:
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();
     std::string message = "nothing was thrown";
-    largest_allocation = 0;
+    test::largest_allocation = 0;
     try {
       readPcdCloud(path);
     } catch (const CloudError& error) {
       message = error.what();
     }
-    const std::size_t largest = largest_allocation;
+    const std::size_t largest = test::largest_allocation;
     EXPECT_EQ(testing::internal::GetCapturedStderr() + testing::internal::GetCapturedStdout(), "");
     EXPECT_NE(message.find(reason), std::string::npos) << "expected '" << reason << "', got '" << message << "'";
     EXPECT_EQ(message.find('\n'), std::string::npos);
@@ -359,13 +335,13 @@ TEST_F(PcdTest, survivesChangedBytes)
         changed.resize(random() % changed.size() + 1);
       }
       const std::string path = write(changed);
-      largest_allocation = 0;
+      test::largest_allocation = 0;
       try {
         const Cloud cloud = readPcdCloud(path);
         EXPECT_LE(cloud.size(), 24U);
       } catch (const CloudError&) {
       }
-      EXPECT_LT(largest_allocation, 200000U) << changed;
+      EXPECT_LT(test::largest_allocation, 200000U) << changed;
     }
   }
 }

@@ -1,39 +1,17 @@
 #include "grasp_affordances/point_cloud2.h"
 
+#include "support/allocations.h"
+
 #include <gtest/gtest.h>
 #include <pcl/PCLPointCloud2.h>
 #include <sensor_msgs/PointCloud2.h>
 
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <limits>
-#include <new>
 #include <string>
-
-namespace
-{
-std::atomic<std::size_t> allocations{0};
-}
-
-void* operator new(std::size_t size)
-{
-  ++allocations;
-  if (void* memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept
-{
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept
-{
-  std::free(memory);
-}
 
 namespace grasp_affordances
 {
@@ -171,9 +149,9 @@ TYPED_TEST(PointCloud2Test, keepsSensorAndAllocatesNothingForTheSameSize)
   cloud.sensor_origin = {1.0F, 2.0F, 3.0F};
   cloud.intrinsics = PinholeIntrinsics{525.0, 525.0, 319.5, 239.5};
   cloudFromPointCloud2(message, cloud);
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocations;
   cloudFromPointCloud2(message, cloud);
-  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_EQ(test::allocations - before, 0U);
   EXPECT_EQ(cloud.sensor_origin, Eigen::Vector3f(1.0F, 2.0F, 3.0F));
   EXPECT_TRUE(cloud.intrinsics.has_value());
 }
