@@ -63,6 +63,69 @@ TEST(PrincipalCurvature, OfASphereIsItsInverseRadius)
   }
 }
 
+/// The principal curvature at a surface's top, the origin, of the quadric fitted to points around it.
+PrincipalCurvature fittedCurvature(Points points, double noise, const Eigen::Matrix3d& rotation, Random& random)
+{
+  const Eigen::Vector3d place(0.1, -0.2, 0.8);
+  for (Eigen::Vector3d& p : points) {
+    p += noise * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+  }
+  const auto fit = fitTaubin(neighborhoodOf(transformed(points, rotation, place), place, 0.026));
+  EXPECT_TRUE(fit);
+  PrincipalCurvature curvature = principalCurvature(fit->quadric, fit->quadric.toLocal(place));
+  // Positive is what bends away from +z, as the surfaces below do.
+  const bool upwards = fit->quadric.gradient(fit->quadric.toLocal(place)).dot(rotation.col(2)) > 0.0;
+  curvature.value *= (upwards ? 1.0 : -1.0) / fit->quadric.scale;
+  return curvature;
+}
+
+/// z = -(k_x x^2 + k_y y^2) / 2 continued as the surface it belongs to: an ellipsoid with these curvatures at its pole,
+/// or for curvatures of opposite sign the saddle itself.
+Points surfaceWithCurvatures(double k_x, double k_y, Random& random)
+{
+  Points points;
+  while (points.size() < 800) {
+    const double x = random.uniform(-0.02, 0.02), y = random.uniform(-0.02, 0.02);
+    const double sum = k_x * x * x + k_y * y * y;
+    const double c = 0.02;  // m, semi-axis along z; a^2 = c / k_x, b^2 = c / k_y
+    const double inside = 1.0 - sum / c;
+    if (k_x * k_y < 0.0) {
+      points.emplace_back(x, y, -sum / 2);
+    } else if (inside > 0.0) {
+      points.emplace_back(x, y, c * std::sqrt(inside) - c);
+    }
+  }
+  return points;
+}
+
+TEST(FittedQuadric, HasTheCurvatureAndAxisOfTheSurface)
+{
+  struct Case
+  {
+    double k_x, k_y;  // 1/m
+    double expected;
+    bool axis_along_y;
+  };
+  Random random(21);
+  for (const Case& surface : {Case{50, 50, 50, false}, Case{60, 20, 60, true}, Case{20, 60, 60, false},
+                              Case{50, -20, 50, true}, Case{20, -50, -50, false}}) {
+    for (const double noise : {0.0, 0.0003}) {
+      const Eigen::Matrix3d rotation = random.rotation();
+      const PrincipalCurvature curvature =
+          fittedCurvature(surfaceWithCurvatures(surface.k_x, surface.k_y, random), noise, rotation, random);
+      // As for the cylinder below, over a disc of 2 cm; a value that is the larger of two is biased by as much again.
+      const double s = std::hypot(noise, 4e-8), w = 0.02;
+      const double deviation = 3.5 * s / (w * w) * std::sqrt(45 / 800.0);
+      EXPECT_NEAR(curvature.value, surface.expected, 5 * deviation)
+          << surface.k_x << " " << surface.k_y << " " << noise;
+      if (surface.k_x != surface.k_y) {
+        const Eigen::Vector3d axis = rotation.col(surface.axis_along_y ? 1 : 0);
+        EXPECT_LT(lineAngle(curvature.axis, axis), 4 * deviation / std::abs(surface.k_x - surface.k_y) + 1e-3);
+      }
+    }
+  }
+}
+
 struct CylinderView
 {
   Eigen::Vector3d axis;

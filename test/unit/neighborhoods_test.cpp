@@ -1,5 +1,6 @@
 #include "grasp_affordances/neighborhoods.h"
 
+#include "io/bag.h"
 #include "io/pcd.h"
 #include "support/points.h"
 #include "support/recordings.h"
@@ -109,6 +110,19 @@ INSTANTIATE_TEST_SUITE_P(NeighborhoodSearch, RecordedCloud,
                            name = name.substr(name.find('/') + 1);
                            return name.substr(0, name.find('.'));
                          });
+
+TEST(NeighborhoodSearch, AgreesWithBruteForceOnTheRecordedBag)
+{
+  REQUIRE_RECORDINGS(folder);
+  BagVisitor visitor;
+  visitor.malformed = [](const std::string& reason, std::size_t, std::size_t) { FAIL() << reason; };
+  visitor.cloud = [](const sensor_msgs::PointCloud2& message, std::size_t, std::size_t) {
+    Cloud cloud;
+    cloudFromPointCloud2(message, cloud);
+    expectSameNeighborhoods(cloud, 2, 40);
+  };
+  readBagClouds(folder + "/bags/soda_can.bag", "", visitor);
+}
 
 TEST(NeighborhoodSearch, BreaksTiesByIndex)
 {
