@@ -17,8 +17,8 @@ struct NodeParameters
 
 /// Reads the struct of a node's private parameters: `preset` names the base, `lazy` and the parameters of
 /// visitParameters() overrule it. Every name must be known: the private namespace belongs to the node.
-/// @throw ParameterError with name, value and allowed values for an unknown name, a wrong type (an integer is fine for
-/// a real number, but not the other way round) or a value outside its range.
+/// @throw ParameterError with name, value and allowed values for an unknown name, a wrong type (see ParameterReader) or a
+/// value outside its range.
 NodeParameters nodeParameters(const XmlRpc::XmlRpcValue& parameters);
 
 /// As above, from the parameter server.

@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <sstream>
 #include <string>
 
 namespace
@@ -40,6 +41,7 @@ int main(int argc, char** argv)
   ros::init(argc, argv, "pcd_publisher");
   ros::NodeHandle nh;
   ros::NodeHandle private_nh("~");
+  constexpr double kSlowest = 0.001;  // Hz
   std::string file, frame_id = "camera_depth_optical_frame";
   double rate = 10.0;
   sensor_msgs::PointCloud2 message;
@@ -49,6 +51,11 @@ int main(int argc, char** argv)
     read("frame_id", frame_id, "the name of a frame");
     read("rate", rate, grasp_affordances::Range<double>{0.0, 1000.0}, "Hz", "");
     read.refuseRemaining();
+    if (rate > 0.0 && rate < kSlowest) {
+      std::ostringstream refusal;
+      refusal << "parameter ~rate is " << rate << "; it must be 0 (once) or a number in [" << kSlowest << ", 1000] Hz";
+      throw grasp_affordances::ParameterError(refusal.str());
+    }
     message = messageFromPcd(file);
   } catch (const grasp_affordances::ParameterError& error) {
     ROS_FATAL_STREAM(error.what());
@@ -59,8 +66,7 @@ int main(int argc, char** argv)
   }
   message.header.frame_id = frame_id;
 
-  constexpr double kSlowest = 0.001;  // Hz; below it is once
-  const bool once = rate < kSlowest;
+  const bool once = rate == 0.0;
   ros::Publisher publisher = nh.advertise<sensor_msgs::PointCloud2>("points", 1, once);
   if (once) {
     message.header.stamp = ros::Time::now();

@@ -107,6 +107,7 @@ class Lifecycle(unittest.TestCase):
 
     def test_publisher_refuses_bad_parameters(self):
         for name, value, text in (('rate', -1, '[0, 1000] Hz'), ('rate', 'fast', '[0, 1000] Hz'),
+                                  ('rate', 1e-12, '[0.001, 1000] Hz'),
                                   ('frame_id', 5, 'the name of a frame'), ('rat', 3, 'unknown name')):
             with Process('grasp_affordances', 'pcd_publisher', '_file:=' + scene('table'),
                          '_%s:=%s' % (name, value)) as node:

@@ -368,7 +368,7 @@ TEST(SmallestEigenpair, AgreesWithTheFullDecomposition)
     EXPECT_LT(1.0 - cosine, std::pow(1e-13 / gap, 2) + 1e-14);
     iterated += iterateToSmallest(matrix, 0.0) ? 1 : 0;
   }
-  EXPECT_GT(iterated, kMatrices / 4) << "the iteration itself was tested";
+  EXPECT_GT(iterated, kMatrices * 9 / 10) << "the full decomposition is for the exceptions";
 }
 
 TEST(SmallestEigenpair, RefusesAnEigenvalueThatIsNotAlone)
