@@ -10,8 +10,13 @@ namespace grasp_affordances
 /// What random numbers are drawn for; each use has its own, whatever the others draw.
 enum class RandomStream : std::uint64_t
 {
-  placement,  ///< of the objects and the camera of a scene
-  disparity   ///< noise of a pixel
+  placement,    ///< of the objects and the camera of a scene
+  disparity,    ///< noise of the matching
+  edge_column,  ///< jitter of depth edges along the rows
+  edge_row,     ///< and along the columns
+  edge_loss,    ///< what is not measured at depth edges
+  reflection,   ///< what is not measured for lack, or excess, of light
+  transparency  ///< what is measured of a transparent surface
 };
 
 /// Counter-based random numbers (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011): the n-th draw

@@ -1,185 +1,29 @@
 #include "simulation/primitive.h"
 
-#include "simulation/polynomial_roots.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 namespace grasp_affordances
 {
 namespace
 {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// The part of a ray's line inside a convex solid.
-struct Interval
-{
-  double enter = -kInfinity;
-  double exit = kInfinity;
-
-  bool empty() const { return !(enter < exit); }
-};
-
-Interval intersection(const Interval& a, const Interval& b)
-{
-  return {std::max(a.enter, b.enter), std::min(a.exit, b.exit)};
-}
-
-constexpr Interval kNowhere{kInfinity, -kInfinity};
-
-/// Where the interval's ends lie after t_min, the first of them.
-double firstCrossing(const Interval& inside, double t_min)
-{
-  if (inside.empty())
-    return kNoIntersection;
-  if (inside.enter > t_min)
-    return inside.enter;
-  return inside.exit > t_min ? inside.exit : kNoIntersection;
-}
-
-/// -half <= coordinate <= half
-Interval slab(double half, double origin, double direction)
-{
-  if (direction == 0.0)
-    return std::abs(origin) <= half ? Interval{} : kNowhere;
-  const double a = (-half - origin) / direction;
-  const double b = (half - origin) / direction;
-  return {std::min(a, b), std::max(a, b)};
-}
-
-/// Where a ray is inside a truncated cone or cylinder without wall.
-Interval insideFrustum(double bottom_radius, double top_radius, double height, const Ray& ray)
-{
-  const Interval between_ends = slab(0.5 * height, ray.origin.z(), ray.direction.z());
-  if (between_ends.empty())
-    return kNowhere;
-
-  // Inside the double cone where a t^2 + 2 b t + c <= 0; its radius along the ray is radius + widening t.
-  const double slope = (top_radius - bottom_radius) / height;
-  const double radius = 0.5 * (bottom_radius + top_radius) + slope * ray.origin.z();
-  const double widening = slope * ray.direction.z();
-  const double a = ray.direction.head<2>().squaredNorm() - widening * widening;
-  const double b = ray.origin.head<2>().dot(ray.direction.head<2>()) - radius * widening;
-  const double c = ray.origin.head<2>().squaredNorm() - radius * radius;
-  if (a == 0.0 && b == 0.0)
-    return c <= 0.0 ? between_ends : kNowhere;
-  const double discriminant = b * b - a * c;
-  if (a >= 0.0 && discriminant < 0.0)
-    return kNowhere;
-
-  const double q = -(b + std::copysign(std::sqrt(std::max(discriminant, 0.0)), b));
-  const double t1 = q / a;
-  const double t2 = q == 0.0 ? t1 : c / q;
-  const auto [first, second] = std::minmax(t1, t2);
-  if (a >= 0.0)
-    return intersection(between_ends, {first, second});
-  // The ray is steeper than the cone: it is inside before the first root and after the second, once in each nappe.
-  return intersection(between_ends, widening > 0.0 ? Interval{second, kInfinity} : Interval{-kInfinity, first});
-}
-
-double firstCrossing(const Box& box, const Ray& ray, double t_min)
-{
-  Interval inside;
-  for (int axis = 0; axis < 3; ++axis)
-    inside = intersection(inside, slab(0.5 * box.size[axis], ray.origin[axis], ray.direction[axis]));
-  return firstCrossing(inside, t_min);
-}
-
-double firstCrossing(const Sphere& sphere, const Ray& ray, double t_min)
-{
-  const double squared_half_chord = sphere.radius * sphere.radius - ray.origin.squaredNorm();
-  if (squared_half_chord <= 0.0)
-    return kNoIntersection;
-  const double half_chord = std::sqrt(squared_half_chord);
-  return firstCrossing(Interval{-half_chord, half_chord}, t_min);
-}
-
-double firstCrossing(const Frustum& frustum, const Ray& ray, double t_min)
-{
-  const Interval outer = insideFrustum(frustum.bottom_radius, frustum.top_radius, frustum.height, ray);
-  if (frustum.wall == 0.0)
-    return firstCrossing(outer, t_min);
-  const Interval bore =
-      insideFrustum(frustum.bottom_radius - frustum.wall, frustum.top_radius - frustum.wall, frustum.height, ray);
-  if (bore.empty())
-    return firstCrossing(outer, t_min);
-  return std::min(firstCrossing(Interval{outer.enter, bore.enter}, t_min),
-                  firstCrossing(Interval{bore.exit, outer.exit}, t_min));
-}
-
-double firstCrossing(const Cylinder& cylinder, const Ray& ray, double t_min)
-{
-  return firstCrossing(Frustum{cylinder.radius, cylinder.radius, cylinder.height, cylinder.wall}, ray, t_min);
-}
-
-bool insideTorusArc(const TorusArc& arc, const Eigen::Vector3d& point)
-{
-  const double from_tube = std::hypot(std::hypot(point.x(), point.y()) - arc.major_radius, point.z());
-  return from_tube <= arc.tube_radius && std::abs(std::atan2(point.y(), point.x())) <= arc.half_angle;
-}
-
-/// (|x|^2 + R^2 - r^2)^2 = 4 R^2 (x1^2 + x2^2) is a quartic in t, without cubic term because t counts from the point of
-/// the ray's line closest to the origin. Its roots and the planes of the arc's ends cut the line into pieces that are
-/// inside or outside as their midpoints are.
-double firstCrossing(const TorusArc& arc, const Ray& ray, double t_min)
-{
-  const double reach = arc.major_radius + arc.tube_radius;
-  if (ray.origin.squaredNorm() >= reach * reach)
-    return kNoIntersection;
-
-  const auto o = ray.origin.head<2>();
-  const auto d = ray.direction.head<2>();
-  const double scale = 4.0 * arc.major_radius * arc.major_radius;
-  const double k = ray.origin.squaredNorm() + arc.major_radius * arc.major_radius - arc.tube_radius * arc.tube_radius;
-  const QuarticRoots roots = depressedQuarticRoots(2.0 * k - scale * d.squaredNorm(), -2.0 * scale * o.dot(d),
-                                                   k * k - scale * o.squaredNorm(), -2.0 * reach, 2.0 * reach);
-  if (roots.count == 0)
-    return kNoIntersection;
-
-  std::array<double, 7> cuts;
-  std::size_t count = 0;
-  const auto insert = [&](double cut) {
-    std::size_t i = count++;
-    for (; i > 0 && cuts[i - 1] > cut; --i)
-      cuts[i] = cuts[i - 1];
-    cuts[i] = cut;
-  };
-  insert(2.0 * reach);
-  for (const double root : roots)
-    insert(root);
-  for (const double angle : {-arc.half_angle, arc.half_angle}) {
-    const Eigen::Vector2d normal(-std::sin(angle), std::cos(angle));
-    const double t = -normal.dot(o) / normal.dot(d);
-    if (std::abs(t) < reach)
-      insert(t);
-  }
-
-  bool inside = false;
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    const double middle = 0.5 * (cuts[i] + cuts[i + 1]);
-    const bool next = insideTorusArc(arc, ray.origin + middle * ray.direction);
-    if (next != inside && cuts[i] > t_min)
-      return cuts[i];
-    inside = next;
-  }
-  return kNoIntersection;
-}
-
-template <typename... Handlers>
-struct Overloaded : Handlers...
-{
-  using Handlers::operator()...;
-};
-template <typename... Handlers>
-Overloaded(Handlers...) -> Overloaded<Handlers...>;
+const double kPi = std::acos(-1.0);
 
 bool positive(double length)
 {
   return length > 0.0 && std::isfinite(length);
+}
+
+bool isSolid(const Box& b)
+{
+  return positive(b.size.x()) && positive(b.size.y()) && positive(b.size.z());
+}
+
+bool isSolid(const Sphere& s)
+{
+  return positive(s.radius);
 }
 
 bool isSolid(const Frustum& f)
@@ -188,49 +32,257 @@ bool isSolid(const Frustum& f)
          f.wall < std::min(f.bottom_radius, f.top_radius);
 }
 
+bool isSolid(const Cylinder& c)
+{
+  return isSolid(Frustum{c.radius, c.radius, c.height, c.wall});
+}
+
 bool isSolid(const TorusArc& t)
 {
   return positive(t.major_radius) && positive(t.tube_radius) && t.tube_radius < t.major_radius && t.half_angle > 0.0 &&
-         t.half_angle <= std::acos(-1.0);
+         t.half_angle <= kPi;
+}
+
+bool isSolid(const HalfSpace&)
+{
+  return true;
+}
+
+bool isSolid(const Ellipsoid& e)
+{
+  return positive(e.semi_axes.x()) && positive(e.semi_axes.y()) && positive(e.semi_axes.z());
+}
+
+bool isSolid(const Capsule& c)
+{
+  return positive(c.radius) && positive(c.height);
+}
+
+bool isSolid(const EllipticCylinder& c)
+{
+  return positive(c.semi_axis_x) && positive(c.semi_axis_y) && positive(c.height);
+}
+
+bool isSolid(const Revolution& r)
+{
+  const std::size_t last = r.profile.size() - 1;
+  for (std::size_t i = 0; i < r.profile.size(); ++i) {
+    const auto& [z, radius] = r.profile[i];
+    const bool ascends = i == 0 || z > r.profile[i - 1].z;
+    const bool pointed = radius == 0.0 && (i == 0 || i == last);
+    if (!std::isfinite(z) || !ascends || !(positive(radius) || pointed))
+      return false;
+  }
+  // A single piece that is pointed at both ends is a line.
+  return r.profile.size() > 2 || (r.profile.size() == 2 && r.profile[0].radius + r.profile[1].radius > 0.0);
+}
+
+double widestRadius(const Revolution& r)
+{
+  double widest = 0.0;
+  for (const Revolution::Station& station : r.profile)
+    widest = std::max(widest, station.radius);
+  return widest;
+}
+
+double reach(const Box& b)
+{
+  return 0.5 * b.size.norm();
+}
+
+double reach(const Sphere& s)
+{
+  return s.radius;
+}
+
+double reach(const Cylinder& c)
+{
+  return std::hypot(c.radius, 0.5 * c.height);
+}
+
+double reach(const Frustum& f)
+{
+  return std::hypot(std::max(f.bottom_radius, f.top_radius), 0.5 * f.height);
+}
+
+double reach(const TorusArc& t)
+{
+  return t.major_radius + t.tube_radius;
+}
+
+double reach(const HalfSpace&)
+{
+  return std::numeric_limits<double>::infinity();
+}
+
+double reach(const Ellipsoid& e)
+{
+  return e.semi_axes.maxCoeff();
+}
+
+double reach(const Capsule& c)
+{
+  return 0.5 * c.height + c.radius;
+}
+
+double reach(const EllipticCylinder& c)
+{
+  return std::hypot(std::max(c.semi_axis_x, c.semi_axis_y), 0.5 * c.height);
+}
+
+double reach(const Revolution& r)
+{
+  double farthest = 0.0;
+  for (const Revolution::Station& station : r.profile)
+    farthest = std::max(farthest, std::hypot(station.z, station.radius));
+  return farthest;
+}
+
+Eigen::AlignedBox3d symmetricBox(double x, double y, double z)
+{
+  return {Eigen::Vector3d(-x, -y, -z), Eigen::Vector3d(x, y, z)};
+}
+
+Eigen::AlignedBox3d box(const Box& b)
+{
+  return {-0.5 * b.size, 0.5 * b.size};
+}
+
+Eigen::AlignedBox3d box(const Sphere& s)
+{
+  return symmetricBox(s.radius, s.radius, s.radius);
+}
+
+Eigen::AlignedBox3d box(const Cylinder& c)
+{
+  return symmetricBox(c.radius, c.radius, 0.5 * c.height);
+}
+
+Eigen::AlignedBox3d box(const Frustum& f)
+{
+  const double radius = std::max(f.bottom_radius, f.top_radius);
+  return symmetricBox(radius, radius, 0.5 * f.height);
+}
+
+Eigen::AlignedBox3d box(const TorusArc& t)
+{
+  const double inner = t.major_radius - t.tube_radius;
+  const double outer = t.major_radius + t.tube_radius;
+  const double cosine = std::cos(t.half_angle);
+  const double y = cosine > 0.0 ? outer * std::sin(t.half_angle) : outer;
+  return {Eigen::Vector3d((cosine > 0.0 ? inner : outer) * cosine, -y, -t.tube_radius),
+          Eigen::Vector3d(outer, y, t.tube_radius)};
+}
+
+Eigen::AlignedBox3d box(const HalfSpace&)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  return {Eigen::Vector3d(-infinity, -infinity, -infinity), Eigen::Vector3d(infinity, infinity, 0.0)};
+}
+
+Eigen::AlignedBox3d box(const Ellipsoid& e)
+{
+  return {-e.semi_axes, e.semi_axes};
+}
+
+Eigen::AlignedBox3d box(const Capsule& c)
+{
+  return symmetricBox(c.radius, c.radius, 0.5 * c.height + c.radius);
+}
+
+Eigen::AlignedBox3d box(const EllipticCylinder& c)
+{
+  return symmetricBox(c.semi_axis_x, c.semi_axis_y, 0.5 * c.height);
+}
+
+Eigen::AlignedBox3d box(const Revolution& r)
+{
+  const double radius = widestRadius(r);
+  return {Eigen::Vector3d(-radius, -radius, r.profile.front().z), Eigen::Vector3d(radius, radius, r.profile.back().z)};
+}
+
+bool inside(const Box& b, const Eigen::Vector3d& p)
+{
+  return (p.cwiseAbs() - 0.5 * b.size).maxCoeff() <= 0.0;
+}
+
+bool inside(const Sphere& s, const Eigen::Vector3d& p)
+{
+  return p.squaredNorm() <= s.radius * s.radius;
+}
+
+bool inside(const Frustum& f, const Eigen::Vector3d& p)
+{
+  const double radius = f.bottom_radius + (f.top_radius - f.bottom_radius) * (p.z() / f.height + 0.5);
+  const double from_axis = p.head<2>().norm();
+  return std::abs(p.z()) <= 0.5 * f.height && from_axis <= radius && (f.wall == 0.0 || from_axis >= radius - f.wall);
+}
+
+bool inside(const Cylinder& c, const Eigen::Vector3d& p)
+{
+  return inside(Frustum{c.radius, c.radius, c.height, c.wall}, p);
+}
+
+bool inside(const TorusArc& t, const Eigen::Vector3d& p)
+{
+  const double from_tube = std::hypot(p.head<2>().norm() - t.major_radius, p.z());
+  return from_tube <= t.tube_radius && std::abs(std::atan2(p.y(), p.x())) <= t.half_angle;
+}
+
+bool inside(const HalfSpace&, const Eigen::Vector3d& p)
+{
+  return p.z() <= 0.0;
+}
+
+bool inside(const Ellipsoid& e, const Eigen::Vector3d& p)
+{
+  return p.cwiseQuotient(e.semi_axes).squaredNorm() <= 1.0;
+}
+
+bool inside(const Capsule& c, const Eigen::Vector3d& p)
+{
+  const double beyond = std::max(0.0, std::abs(p.z()) - 0.5 * c.height);
+  return p.head<2>().squaredNorm() + beyond * beyond <= c.radius * c.radius;
+}
+
+bool inside(const EllipticCylinder& c, const Eigen::Vector3d& p)
+{
+  return std::abs(p.z()) <= 0.5 * c.height &&
+         Eigen::Vector2d(p.x() / c.semi_axis_x, p.y() / c.semi_axis_y).squaredNorm() <= 1.0;
+}
+
+bool inside(const Revolution& r, const Eigen::Vector3d& p)
+{
+  if (p.z() < r.profile.front().z || p.z() > r.profile.back().z)
+    return false;
+  const auto above = std::find_if(r.profile.begin() + 1, r.profile.end() - 1,
+                                  [&](const Revolution::Station& station) { return station.z >= p.z(); });
+  const auto below = above - 1;
+  const double radius = below->radius + (above->radius - below->radius) * (p.z() - below->z) / (above->z - below->z);
+  return p.head<2>().norm() <= radius;
 }
 
 }  // namespace
 
 void validate(const Primitive& primitive)
 {
-  const bool solid = std::visit(
-      Overloaded{[](const Box& b) { return positive(b.size.x()) && positive(b.size.y()) && positive(b.size.z()); },
-                 [](const Sphere& s) { return positive(s.radius); },
-                 [](const Cylinder& c) {
-                   return isSolid(Frustum{c.radius, c.radius, c.height, c.wall});
-                 },
-                 [](const Frustum& f) { return isSolid(f); }, [](const TorusArc& t) { return isSolid(t); }},
-      primitive);
-  if (!solid)
+  if (!std::visit([](const auto& solid) { return isSolid(solid); }, primitive))
     throw std::invalid_argument("primitive whose dimensions describe no solid");
 }
 
 double boundingRadius(const Primitive& primitive)
 {
-  return std::visit(
-      Overloaded{[](const Box& b) { return 0.5 * b.size.norm(); }, [](const Sphere& s) { return s.radius; },
-                 [](const Cylinder& c) { return std::hypot(c.radius, 0.5 * c.height); },
-                 [](const Frustum& f) { return std::hypot(std::max(f.bottom_radius, f.top_radius), 0.5 * f.height); },
-                 [](const TorusArc& t) { return t.major_radius + t.tube_radius; }},
-      primitive);
+  return std::visit([](const auto& solid) { return reach(solid); }, primitive);
 }
 
-double intersect(const Primitive& primitive, const Ray& ray)
+Eigen::AlignedBox3d boundingBox(const Primitive& primitive)
 {
-  // Unit direction, and t counted from the point closest to the solid's centre: numbers of the solid's own size,
-  // however far away the ray starts.
-  const double length = ray.direction.norm();
-  Ray centred;
-  centred.direction = ray.direction / length;
-  const double start = ray.origin.dot(centred.direction);
-  centred.origin = ray.origin - start * centred.direction;
-  const double t = std::visit([&](const auto& solid) { return firstCrossing(solid, centred, start); }, primitive);
-  return (t - start) / length;
+  return std::visit([](const auto& solid) { return box(solid); }, primitive);
+}
+
+bool contains(const Primitive& primitive, const Eigen::Vector3d& point)
+{
+  return std::visit([&](const auto& solid) { return inside(solid, point); }, primitive);
 }
 
 }  // namespace grasp_affordances

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
+#include <cstddef>
 #include <limits>
 #include <variant>
+#include <vector>
 
 namespace grasp_affordances
 {
@@ -50,18 +53,65 @@ struct TorusArc
   double half_angle;    ///< rad, in (0, pi]; pi: a whole torus
 };
 
-using Primitive = std::variant<Box, Sphere, Cylinder, Frustum, TorusArc>;
+/// Everything below its xy plane, without end: a floor, a table top or a wall.
+struct HalfSpace
+{
+};
+
+struct Ellipsoid
+{
+  Eigen::Vector3d semi_axes;  ///< along x, y and z
+};
+
+/// A cylinder with a hemisphere on either end.
+struct Capsule
+{
+  double radius;
+  double height;  ///< of the cylinder, between the centres of the hemispheres
+};
+
+struct EllipticCylinder
+{
+  double semi_axis_x;
+  double semi_axis_y;
+  double height;
+};
+
+/// A solid of revolution about z: the frusta between consecutive stations of its profile.
+struct Revolution
+{
+  struct Station
+  {
+    double z;
+    double radius;  ///< may be 0 at the first and at the last station
+  };
+  std::vector<Station> profile;  ///< at least two, in order of ascending z
+};
+
+using Primitive =
+    std::variant<Box, Sphere, Cylinder, Frustum, TorusArc, HalfSpace, Ellipsoid, Capsule, EllipticCylinder, Revolution>;
 
 /// @throw std::invalid_argument for dimensions that describe no solid.
 void validate(const Primitive& primitive);
 
-/// Radius of the smallest sphere about the origin that is known to hold the solid.
+/// Radius of the smallest sphere about the origin that is known to hold the solid; infinite for a half-space.
 double boundingRadius(const Primitive& primitive);
+
+/// A box in the solid's frame that holds it; unbounded for a half-space.
+Eigen::AlignedBox3d boundingBox(const Primitive& primitive);
 
 constexpr double kNoIntersection = std::numeric_limits<double>::infinity();
 
 /// The smallest t > 0 at which the ray crosses the surface, inwards or outwards; kNoIntersection where there is none.
 /// The solid must be valid, and the ray in its frame.
 double intersect(const Primitive& primitive, const Ray& ray);
+
+/// The same for `count` rays from one point, the i-th in the direction first_direction + i * step; writes t[0], ...,
+/// t[count - 1].
+void intersect(const Primitive& primitive, const Eigen::Vector3d& origin, const Eigen::Vector3d& first_direction,
+               const Eigen::Vector3d& step, std::size_t count, double* t);
+
+/// Whether a point in the solid's frame lies in its material. Solid must be valid.
+bool contains(const Primitive& primitive, const Eigen::Vector3d& point);
 
 }  // namespace grasp_affordances

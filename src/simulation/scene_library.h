@@ -11,13 +11,6 @@
 namespace grasp_affordances
 {
 
-/// A scene and where it is seen from.
-struct View
-{
-  Scene scene;
-  Eigen::Isometry3d T_scene_camera = Eigen::Isometry3d::Identity();  ///< optical frame of the camera
-};
-
 /// A scene by name. Sizes, places and the camera vary with the seed.
 struct NamedScene
 {

@@ -1,52 +1,197 @@
 #include "simulation/sensor.h"
 
-#include "simulation/counter_random.h"
-#include "simulation/ray_caster.h"
+#include "simulation/disparity_image.h"
+#include "simulation/infrared_return.h"
+#include "simulation/projector_shadow.h"
+#include "simulation/sensor_noise.h"
+#include "simulation/visible_surfaces.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
-#include <optional>
+#include <utility>
 
 namespace grasp_affordances
 {
-
-Frame Xtion::capture(const Scene& scene, const Eigen::Isometry3d& T_scene_camera, std::uint64_t seed) const
+namespace
 {
-  const PinholeIntrinsics& camera = model_.intrinsics;
-  Frame frame;
-  frame.cloud.reset(model_.width, model_.height);
-  frame.cloud.intrinsics = camera;
-  frame.labels.assign(frame.cloud.size(), 0);
 
-  const RayCaster caster(scene, T_scene_camera);
-  std::size_t pixel = 0;
-  for (std::uint32_t row = 0; row < model_.height; ++row) {
-    for (std::uint32_t column = 0; column < model_.width; ++column, ++pixel) {
-      const Eigen::Vector3d direction((column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0);
-      const std::optional<Hit> hit = caster.cast(direction);
-      if (!hit || hit->part->surface == Surface::absorbing)
-        continue;
-      const double depth = reportedDepth(hit->t, CounterRandom(seed, RandomStream::disparity, pixel).normal());
-      if (std::isnan(depth))
-        continue;
-      const Eigen::Vector3f point = (depth * direction).cast<float>();
-      frame.cloud.set(pixel, point.x(), point.y(), point.z());
-      frame.labels[pixel] = hit->part->label;
-    }
-  }
+constexpr float kMetresPerUnit = 0.001F;  ///< of a depth image
+constexpr int kLargestJitter = 2;         ///< px; promised in the header
+
+Frame emptyFrame(const XtionModel& model)
+{
+  Frame frame;
+  frame.cloud.reset(model.width, model.height);
+  frame.cloud.intrinsics = model.intrinsics;
+  frame.depth.assign(frame.cloud.size(), 0);
+  frame.parts.assign(frame.cloud.size(), -1);
+  frame.surface_depth.assign(frame.cloud.size(), std::nanf(""));
   return frame;
 }
 
-double Xtion::reportedDepth(double depth, double noise) const
+template <typename Task>
+void forEachPixel(const XtionModel& model, Task&& task)
 {
-  if (!model_.exact) {
-    const double focal_baseline = model_.intrinsics.fx * model_.baseline;
-    const double disparity = focal_baseline / depth + model_.disparity_noise * noise;
-    depth = focal_baseline / (std::round(disparity / model_.disparity_step) * model_.disparity_step);
-    depth = std::round(depth / model_.depth_step) * model_.depth_step;
+  const auto width = static_cast<int>(model.width);
+  tbb::parallel_for(0, static_cast<int>(model.height), [&](int row) {
+    for (int column = 0; column < width; ++column)
+      task(Pixel{column, row}, static_cast<std::size_t>(row) * width + column);
+  });
+}
+
+/// What the sensor matches: the transparent surface in some patches, nothing in others, and mostly what lies behind it.
+SurfaceImage throughGlass(VisibleSurfaces visible, const XtionModel& model, std::uint64_t seed)
+{
+  constexpr double patch_size = 12.0;    // px
+  constexpr double reflects = 1.5;       // beyond: 7 %
+  constexpr double loses_light = -0.84;  // below: 20 %
+  const PatchNoise patches(seed, RandomStream::transparency, patch_size);
+
+  SurfaceImage& matched = visible.opaque;
+  forEachPixel(model, [&](Pixel p, std::size_t i) {
+    if (!(visible.transparent.depth[i] < matched.depth[i]))
+      return;
+    const double patch = model.exact ? reflects : patches(p.column, p.row);
+    if (patch >= reflects) {
+      matched.depth[i] = visible.transparent.depth[i];
+      matched.part[i] = visible.transparent.part[i];
+    } else if (patch < loses_light) {
+      matched.depth[i] = std::numeric_limits<float>::infinity();
+      matched.part[i] = -1;
+    }
+  });
+  return std::move(matched);
+}
+
+/// Depth edges where the matching window puts them.
+class EdgeNoise
+{
+public:
+  EdgeNoise(double jitter, std::uint64_t seed)
+      : jitter_(jitter),
+        along_row_(seed, RandomStream::edge_column, kPatch),
+        along_column_(seed, RandomStream::edge_row, kPatch),
+        loss_(seed, RandomStream::edge_loss, kPatch)
+  {
   }
-  const bool in_range = depth >= model_.min_depth && depth <= model_.max_depth;
-  return in_range ? depth : std::numeric_limits<double>::quiet_NaN();
+
+  /// The pixel whose surface a pixel is matched with; itself, unless a depth edge is between them.
+  Pixel source(const DisparityImage& disparity, Pixel p) const
+  {
+    if (!disparity.edgeWithin(kLargestJitter, p))
+      return p;
+    const auto jittered = [&](int coordinate, const PatchNoise& noise, int size) {
+      const auto shift = static_cast<int>(std::round(jitter_ * noise(p.column, p.row)));
+      return std::clamp(coordinate + std::clamp(shift, -kLargestJitter, kLargestJitter), 0, size - 1);
+    };
+    const Pixel there{jittered(p.column, along_row_, disparity.width()),
+                      jittered(p.row, along_column_, disparity.height())};
+    return disparity.parted(p, there) ? there : p;
+  }
+
+  bool loses(const DisparityImage& disparity, Pixel p) const
+  {
+    constexpr double share = 0.5;  // beyond: 31 %
+    return disparity.edgeWithin(1, p) && loss_(p.column, p.row) > share;
+  }
+
+private:
+  static constexpr double kPatch = 3.0;  // px
+
+  double jitter_;
+  PatchNoise along_row_, along_column_, loss_;
+};
+
+/// Depth in millimetres as it is reported for a true depth, 0 where it is out of range.
+std::uint16_t reportedDepth(const XtionModel& model, double depth, double noise)
+{
+  const double focal_baseline = model.intrinsics.fx * model.baseline;
+  const double disparity = focal_baseline / depth + model.disparity_noise * noise;
+  const double matched = std::round(disparity / model.disparity_step) * model.disparity_step;
+  const double reported = focal_baseline / matched;
+  const bool in_range = reported >= model.min_depth && reported <= model.max_depth;
+  return in_range ? static_cast<std::uint16_t>(std::round(reported / kMetresPerUnit)) : 0;
+}
+
+/// The arithmetic of depth_image_proc, which makes clouds from the depth images of a real sensor.
+void setPoint(Cloud& cloud, std::size_t i, Pixel p, std::uint16_t depth)
+{
+  const PinholeIntrinsics& camera = *cloud.intrinsics;
+  const float x_per_unit = kMetresPerUnit / static_cast<float>(camera.fx);
+  const float y_per_unit = kMetresPerUnit / static_cast<float>(camera.fy);
+  cloud.set(i, (static_cast<float>(p.column) - static_cast<float>(camera.cx)) * depth * x_per_unit,
+            (static_cast<float>(p.row) - static_cast<float>(camera.cy)) * depth * y_per_unit, depth * kMetresPerUnit);
+}
+
+Frame exactFrame(const XtionModel& model, const Scene& scene, const SurfaceImage& surfaces,
+                 const DisparityImage& disparity)
+{
+  Frame frame = emptyFrame(model);
+  forEachPixel(model, [&](Pixel p, std::size_t i) {
+    const float depth = surfaces.depth[i];
+    if (!(depth >= model.min_depth && depth <= model.max_depth) ||
+        scene.parts()[surfaces.part[i]].surface == Surface::absorbing)
+      return;
+    const Eigen::Vector3f point = (static_cast<double>(depth) * disparity.ray(p)).cast<float>();
+    frame.cloud.set(i, point.x(), point.y(), point.z());
+    frame.depth[i] = static_cast<std::uint16_t>(std::round(depth / kMetresPerUnit));
+    frame.parts[i] = surfaces.part[i];
+    frame.surface_depth[i] = depth;
+  });
+  return frame;
+}
+
+}  // namespace
+
+double XtionModel::depthQuantum(double depth_m) const
+{
+  return depth_m * depth_m / (intrinsics.fx * baseline) * disparity_step;
+}
+
+Frame Xtion::capture(const Scene& scene, const Eigen::Isometry3d& T_scene_camera, std::uint64_t seed) const
+{
+  const auto width = static_cast<int>(model_.width);
+  const auto height = static_cast<int>(model_.height);
+  VisibleSurfaces visible = findVisibleSurfaces(scene, T_scene_camera, model_.intrinsics, model_.width, model_.height);
+  const DisparityImage occluders(visible.opaque.depth, width, height, model_.intrinsics, model_.baseline);
+  const SurfaceImage surfaces = throughGlass(std::move(visible), model_, seed);
+  const DisparityImage disparity(surfaces.depth, width, height, model_.intrinsics, model_.baseline);
+  if (model_.exact)
+    return exactFrame(model_, scene, surfaces, disparity);
+
+  std::vector<std::uint8_t> shadowed(surfaces.depth.size());
+  tbb::parallel_for(0, height, [&](int row) {
+    findProjectorShadow(disparity.row(row), occluders.row(row), width, &shadowed[disparity.index({0, row})]);
+  });
+  const std::vector<float> noise = windowedNoise(seed, RandomStream::disparity, model_.width, model_.height,
+                                                 model_.window_width, model_.window_height);
+  const EdgeNoise edges(model_.edge_jitter, seed);
+  const InfraredReturn light(seed, model_.baseline);
+  Frame frame = emptyFrame(model_);
+  forEachPixel(model_, [&](Pixel p, std::size_t i) {
+    if (edges.loses(disparity, p))
+      return;
+    const Pixel source = edges.source(disparity, p);
+    const std::size_t k = disparity.index(source);
+    if (surfaces.part[k] < 0 || shadowed[k] != 0)
+      return;
+    const double depth = surfaces.depth[k];
+    if (!light.suffices(scene.parts()[surfaces.part[k]].surface, depth * disparity.ray(source),
+                        disparity.normal(source), source.column, source.row))
+      return;
+    const std::uint16_t reported = reportedDepth(model_, depth, noise[i]);
+    if (reported == 0)
+      return;
+    setPoint(frame.cloud, i, p, reported);
+    frame.depth[i] = reported;
+    frame.parts[i] = surfaces.part[k];
+    frame.surface_depth[i] = surfaces.depth[k];
+  });
+  return frame;
 }
 
 }  // namespace grasp_affordances

@@ -1,16 +1,15 @@
 #pragma once
 
+#include "simulation/counter_random.h"
 #include "simulation/scene.h"
 
 #include <Eigen/Geometry>
-
-#include <cstdint>
 
 namespace grasp_affordances
 {
 
 // Things to put on a table, made of primitives. The frame of each has its origin on the table below its middle, z up.
-// Metres. The part that a hand can close around gets the given label, everything else 0.
+// What has a front or a handle has it towards +x. Metres. Each becomes a new object of the scene.
 
 /// An open mug with a handle towards +x.
 struct Mug
@@ -23,7 +22,7 @@ struct Mug
   double handle_tube_radius = 0.0079;
   double handle_clearance = 0.0315;  ///< between the mug and the inside of its handle, at the widest place
 };
-void add(Scene& scene, const Eigen::Isometry3d& T_scene_mug, const Mug& mug, std::uint32_t handle_label);
+void add(Scene& scene, const Eigen::Isometry3d& T_scene_mug, const Mug& mug);
 
 /// A bottle with a slim neck.
 struct Bottle
@@ -34,7 +33,7 @@ struct Bottle
   double neck_radius = 0.015;
   double neck_length = 0.06;
 };
-void add(Scene& scene, const Eigen::Isometry3d& T_scene_bottle, const Bottle& bottle, std::uint32_t neck_label);
+void add(Scene& scene, const Eigen::Isometry3d& T_scene_bottle, const Bottle& bottle);
 
 /// A round bar along x between two posts.
 struct MountedBar
@@ -45,6 +44,30 @@ struct MountedBar
   double post_width = 0.056;
   double post_height = 0.095;
 };
-void add(Scene& scene, const Eigen::Isometry3d& T_scene_bar, const MountedBar& bar, std::uint32_t bar_label);
+void add(Scene& scene, const Eigen::Isometry3d& T_scene_bar, const MountedBar& bar);
+
+// Scenes of one object each, in a size of their own.
+
+Scene randomMug(CounterRandom& random);
+/// Its neck and cap can be grasped.
+Scene randomDressingBottle(CounterRandom& random);
+/// A glass in a metal frame, with a handle; the plunger is pressed down.
+Scene randomFrenchPress(CounterRandom& random);
+/// Its handle is an arc over the lid.
+Scene randomKettle(CounterRandom& random);
+Scene randomPot(CounterRandom& random);
+Scene randomPan(CounterRandom& random);
+/// Lies along x, with a handle at each end.
+Scene randomRollingPin(CounterRandom& random);
+/// Two objects: a bowl and a ladle that leans on its rim.
+Scene randomBowlWithLadle(CounterRandom& random);
+Scene randomBowl(CounterRandom& random);
+Scene randomPlate(CounterRandom& random);
+/// A cup without handle, too wide to be grasped.
+Scene randomCup(CounterRandom& random);
+/// Too wide to be grasped.
+Scene randomCan(CounterRandom& random);
+/// A can on its side, along y.
+Scene randomLyingCan(CounterRandom& random);
 
 }  // namespace grasp_affordances

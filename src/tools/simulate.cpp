@@ -1,20 +1,25 @@
-// Renders a scene as the virtual Xtion sees it, and writes the labelled cloud to a PCD file.
+// Renders a scene as the virtual Xtion sees it, and writes the labelled cloud, the depth image and the list of objects.
 
+#include "simulation/ground_truth.h"
 #include "simulation/scene_library.h"
 #include "simulation/sensor.h"
+#include "tools/object_list.h"
 
 #include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
+#include <png.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <fstream>
+#include <functional>
 #include <iostream>
-#include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,33 +28,51 @@ namespace ga = grasp_affordances;
 namespace
 {
 
-pcl::PointCloud<pcl::PointXYZL> labelledCloud(const ga::Frame& frame)
+void writeCloud(const std::string& file, const ga::Frame& frame, const std::vector<std::uint32_t>& labels)
 {
   pcl::PointCloud<pcl::PointXYZL> cloud(frame.cloud.width, frame.cloud.height);
   for (std::size_t i = 0; i < frame.cloud.size(); ++i) {
     cloud[i].getVector3fMap() = frame.cloud.point(i);
-    cloud[i].label = frame.labels[i];
+    cloud[i].label = labels[i];
   }
   cloud.is_dense = false;
-  return cloud;
+  pcl::PCDWriter().writeBinaryCompressed(file, cloud);
 }
 
-void printSummary(const std::string& file, const ga::Frame& frame)
+void writeDepth(const std::string& file, const ga::Frame& frame)
 {
-  std::size_t measured = 0;
-  std::map<std::uint32_t, std::size_t> points;
-  for (std::size_t i = 0; i < frame.cloud.size(); ++i) {
-    if (!frame.cloud.measured(i))
-      continue;
-    ++measured;
-    if (frame.labels[i] != 0)
-      ++points[frame.labels[i]];
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = frame.cloud.width;
+  image.height = frame.cloud.height;
+  image.format = PNG_FORMAT_LINEAR_Y;  // 16 bits, written as they are
+  if (png_image_write_to_file(&image, file.c_str(), 0, frame.depth.data(), 0, nullptr) == 0)
+    throw std::runtime_error(image.message);
+}
+
+void writeText(const std::string& file, const std::string& text)
+{
+  std::ofstream stream(file, std::ios::binary);
+  stream << text << '\n';
+  stream.close();
+  if (!stream)
+    throw std::runtime_error("not writable");
+}
+
+/// Writes a file that is asked for. @return whether nothing went wrong
+bool written(const std::string& file, const std::function<void()>& write)
+{
+  if (file.empty())
+    return true;
+  try {
+    write();
+    return true;
+  } catch (const std::exception& error) {
+    const std::string reason = error.what();  // PCL's begins with a colon
+    std::cerr << "simulate: cannot write " << file << ": "
+              << reason.substr(std::min(reason.size(), reason.find_first_not_of(": "))) << '\n';
+    return false;
   }
-  std::cout << file << ": " << frame.cloud.width << " x " << frame.cloud.height << ", " << measured
-            << " points measured";
-  for (const auto& [label, count] : points)
-    std::cout << ", " << count << " of affordance " << label;
-  std::cout << '\n';
 }
 
 void listScenes()
@@ -62,8 +85,9 @@ void listScenes()
 
 int main(int argc, char** argv)
 {
-  std::string scene, out;
+  std::string scene, out, depth, objects;
   std::uint64_t seed = 1;
+  ga::GraspDefinition definition;
   bool list = false;
 
   std::vector<std::string> names;
@@ -72,19 +96,25 @@ int main(int argc, char** argv)
 
   CLI::App app(
       "Renders a scene as a virtual Asus Xtion sees it: an organized 640 x 480 cloud in the optical frame, "
-      "metres, NaN where nothing is measured, with a label per point (0: not graspable, 1..: affordance).");
+      "metres, NaN where nothing is measured, with a label per point (0: not graspable, 1..: affordance, 255: "
+      "doubtful).");
   auto* list_flag = app.add_flag("--list", list, "list the scenes and exit");
   app.add_option("--scene", scene, "name of the scene")->check(CLI::IsMember(names))->excludes(list_flag);
   app.add_option("--seed", seed, "of sizes, places and noise")
       ->check(CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1))
       ->capture_default_str();
+  app.add_option("--capture-radius", definition.capture_radius, "of the hand that the labels hold for, m")
+      ->check(CLI::Range(0.002, 0.5))
+      ->capture_default_str();
   app.add_option("--out", out, "PCD file to write (fields x y z label, compressed)");
+  app.add_option("--depth", depth, "PNG file to write: depth image, 16 bits, mm, 0 where nothing is measured");
+  app.add_option("--objects", objects, "JSON file to write: camera, objects and affordances");
   try {
     app.parse(argc, argv);
     if (!list && scene.empty())
       throw CLI::RequiredError("--scene");
-    if (!list && out.empty())
-      throw CLI::RequiredError("--out");
+    if (!list && out.empty() && depth.empty() && objects.empty())
+      throw CLI::RequiredError("--out, --depth or --objects");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
@@ -93,17 +123,20 @@ int main(int argc, char** argv)
     listScenes();
     return 0;
   }
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // failures are reported below
-  try {
-    const ga::View view = ga::makeScene(scene, seed);
-    const ga::Frame frame = ga::Xtion().capture(view.scene, view.T_scene_camera, seed);
-    pcl::PCDWriter().writeBinaryCompressed(out, labelledCloud(frame));
-    printSummary(out, frame);
-  } catch (const std::exception& error) {
-    const std::string reason = error.what();  // PCL's begins with a colon
-    std::cerr << "simulate: cannot write " << out << ": "
-              << reason.substr(std::min(reason.size(), reason.find_first_not_of(": "))) << '\n';
-    return 1;
-  }
-  return 0;
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // failures are reported by written()
+  const ga::View view = ga::makeScene(scene, seed);
+  const ga::XtionModel model;
+  const ga::Frame frame = ga::Xtion(model).capture(view.scene, view.T_scene_camera, seed);
+  const ga::GroundTruth truth = ga::groundTruth(view, frame, model, definition);
+
+  bool good = written(out, [&] { writeCloud(out, frame, truth.labels); });
+  good &= written(depth, [&] { writeDepth(depth, frame); });
+  good &= written(objects, [&] { writeText(objects, ga::objectList(scene, seed, view, model, definition, truth)); });
+  std::size_t measured = 0;
+  for (std::size_t i = 0; i < frame.cloud.size(); ++i)
+    measured += frame.cloud.measured(i) ? 1 : 0;
+  std::cout << scene << ", seed " << seed << ": " << measured << " of " << frame.cloud.size() << " points measured, "
+            << truth.affordances.size() << " affordances\n"
+            << ga::affordanceTable(truth);
+  return good ? 0 : 1;
 }

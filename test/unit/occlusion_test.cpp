@@ -88,7 +88,7 @@ TEST(Occlusion, OfASlopingPlaneByItselfDependsOnTheDistanceAsked)
 TEST(Occlusion, SeesTheShadowsBetweenForegroundObjects)
 {
   for (const char* name : {"shadow", "shadow_removed"}) {
-    const Cloud cloud = captureScene(name, 1).cloud;
+    const Cloud cloud = captureStrip(name, 1).cloud;
     std::string warning;
     const auto image = RangeImage::create(cloud, warning);
     ASSERT_TRUE(image) << warning;

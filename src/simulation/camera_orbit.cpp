@@ -1,0 +1,39 @@
+#include "simulation/camera_orbit.h"
+
+#include "simulation/ray_caster.h"
+
+#include <cmath>
+#include <optional>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDistanceIntoTheVoid = 1.0;  // m, of the point looked at where the optical axis meets nothing
+
+double distanceLookedAt(const View& view)
+{
+  const std::optional<Hit> hit = RayCaster(view.scene, view.T_scene_camera).cast(Eigen::Vector3d::UnitZ());
+  return hit ? hit->t : kDistanceIntoTheVoid;
+}
+
+}  // namespace
+
+CameraOrbit::CameraOrbit(const View& view, double amplitude, double period)
+    : T_scene_camera_(view.T_scene_camera),
+      T_camera_target_(0.0, 0.0, distanceLookedAt(view)),
+      amplitude_(amplitude),
+      period_(period)
+{
+}
+
+Eigen::Isometry3d CameraOrbit::pose(double time) const
+{
+  const double phase = 2.0 * kPi * std::fmod(time, period_) / period_;
+  const Eigen::Vector3d axis(std::cos(phase), std::sin(phase), 0.0);
+  return T_scene_camera_ * T_camera_target_ * Eigen::AngleAxisd(amplitude_, axis) * T_camera_target_.inverse();
+}
+
+}  // namespace grasp_affordances

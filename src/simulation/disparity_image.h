@@ -1,0 +1,57 @@
+#pragma once
+
+#include "grasp_affordances/cloud.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+struct Pixel
+{
+  int column;
+  int row;
+};
+
+/// True disparities, f b / z in pixels, of the surfaces in a picture; 0 where there are none.
+class DisparityImage
+{
+public:
+  /// @param depth m, row-major; infinite where there is no surface
+  DisparityImage(const std::vector<float>& depth, int width, int height, const PinholeIntrinsics& camera,
+                 double baseline);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  std::size_t index(Pixel p) const { return static_cast<std::size_t>(p.row) * width_ + p.column; }
+  float operator()(Pixel p) const { return disparity_[index(p)]; }
+  const float* row(int row) const { return &disparity_[index({0, row})]; }
+
+  /// Whether a depth edge parts two pixels: their disparities differ by a pixel per pixel on the way, or more, as on a
+  /// surface that is edge-on to the projector.
+  bool parted(Pixel a, Pixel b) const;
+
+  /// Whether a depth edge parts a pixel from one that is up to `reach` pixels away along a row or column.
+  bool edgeWithin(int reach, Pixel p) const;
+
+  /// The point on a pixel's ray with a depth of 1, in the optical frame.
+  Eigen::Vector3d ray(Pixel p) const;
+
+  /// Normal of the surface that a pixel shows, away from the camera and of any length, from its neighbours: in the
+  /// image of a plane, disparity is a linear function of column and row.
+  Eigen::Vector3d normal(Pixel p) const;
+
+private:
+  bool contains(Pixel p) const { return p.column >= 0 && p.column < width_ && p.row >= 0 && p.row < height_; }
+  double gradient(Pixel p, Pixel before, Pixel after) const;
+
+  int width_;
+  int height_;
+  PinholeIntrinsics camera_;
+  std::vector<float> disparity_;
+};
+
+}  // namespace grasp_affordances

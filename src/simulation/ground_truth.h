@@ -1,0 +1,49 @@
+#pragma once
+
+#include "simulation/grasp_definition.h"
+#include "simulation/scene.h"
+#include "simulation/sensor.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// A stretch of a part, or of parts in a chain, that a hand can close around.
+struct Affordance
+{
+  std::uint32_t label = 0;            ///< 1..254
+  std::string object;                 ///< name of the object that it belongs to
+  double radius = 0.0;                ///< m, of the surface where it is widest
+  double length = 0.0;                ///< m, along its axis
+  double distance = 0.0;              ///< m, from the camera to the middle of its axis
+  std::vector<Eigen::Vector3d> axis;  ///< m, points along its axis, in the scene's frame
+  std::size_t visible_points = 0;     ///< measured in the frame
+  double occluded_share = 0.0;        ///< of the pixels that it would fill alone, those where something is in front;
+                                      ///< 0 where it fills none
+};
+
+/// Labels that follow from the geometry alone.
+struct GroundTruth
+{
+  std::vector<Affordance> affordances;  ///< by label, those that the frame does not show included
+  std::vector<std::uint32_t> labels;    ///< per pixel of the frame; 0 where nothing was measured
+};
+
+/// Judges every part of a scene by the definition, per 4 mm of its axis, and labels what a frame shows of it.
+///
+/// Clearance is that of the exact geometry, all around: stricter than the paper's, whose annotator saw one side. Within
+/// a margin of a threshold a stretch is doubtful, the margin being 1 mm or the sensor's depth quantum at that range,
+/// whichever is larger; so is a slim bar without round section whose section fits into the hand.
+///
+/// @param frame captured by a sensor of that model from the view
+/// @throw std::length_error for a scene with more than 254 affordances
+GroundTruth groundTruth(const View& view, const Frame& frame, const XtionModel& model,
+                        const GraspDefinition& definition = GraspDefinition());
+
+}  // namespace grasp_affordances

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+#include <png.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+class SimulateTest : public testing::Test
+{
+protected:
+  SimulateTest() { std::filesystem::create_directories(folder_); }
+  ~SimulateTest() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return folder_ / name; }
+
+  std::string content(const std::string& name) const
+  {
+    std::ostringstream text;
+    text << std::ifstream(path(name), std::ios::binary).rdbuf();
+    return text.str();
+  }
+
+  /// @return exit status; stdout and stderr are in files of these names
+  int simulate(const std::string& arguments) const
+  {
+    const std::string command = "cd " + folder_.string() + " && exec " SIMULATE " " + arguments + " > stdout 2> stderr";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("simulate_test_" + std::to_string(getpid()));
+};
+
+std::vector<std::uint16_t> readDepth(const std::string& file)
+{
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_file(&image, file.c_str()) == 0)
+    return {};
+  image.format = PNG_FORMAT_LINEAR_Y;
+  std::vector<std::uint16_t> pixels(std::size_t{image.width} * image.height);
+  png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr);
+  return pixels;
+}
+
+TEST_F(SimulateTest, CloudDepthImageAndObjectListAgree)
+{
+  ASSERT_EQ(simulate("--scene table --seed 2 --out a.pcd --depth a.png --objects a.json"), 0) << content("stderr");
+  pcl::PointCloud<pcl::PointXYZL> cloud;
+  ASSERT_EQ(pcl::io::loadPCDFile(path("a.pcd"), cloud), 0);
+  const std::vector<std::uint16_t> depth = readDepth(path("a.png"));
+  const nlohmann::json objects = nlohmann::json::parse(content("a.json"));
+
+  ASSERT_EQ(depth.size(), cloud.size());
+  ASSERT_EQ(objects["camera"]["width"], cloud.width);
+  ASSERT_EQ(objects["camera"]["height"], cloud.height);
+  std::map<std::uint32_t, std::size_t> points;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    ASSERT_EQ(depth[i], std::isnan(cloud[i].z) ? 0 : std::lround(1000.0 * cloud[i].z)) << "pixel " << i;
+    ++points[cloud[i].label];
+  }
+  EXPECT_EQ(objects["scene"], "table");
+  EXPECT_EQ(objects["seed"], 2);
+  EXPECT_EQ(objects["definition"]["capture_radius"], 0.026);
+  ASSERT_EQ(objects["affordances"].size(), 3U);
+  for (const nlohmann::json& affordance : objects["affordances"]) {
+    const std::string name = affordance["object"];
+    EXPECT_EQ(affordance["visible_points"], points[affordance["label"]]);
+    EXPECT_GE(affordance["visible_points"], 100);
+    EXPECT_LT(affordance["radius"], 0.026);
+    EXPECT_GE(affordance["length"], 0.03);
+    EXPECT_GE(affordance["axis"].size(), 8U);
+    EXPECT_LT(affordance["occluded_share"], 0.2);
+    EXPECT_NE(content("stdout").find("  " + name + ": radius "), std::string::npos);
+  }
+}
+
+TEST_F(SimulateTest, LabelsAreThoseOfTheGivenHand)
+{
+  ASSERT_EQ(simulate("--scene table --objects a.json --capture-radius 0.005"), 0);
+  EXPECT_TRUE(nlohmann::json::parse(content("a.json"))["affordances"].empty());
+}
+
+TEST_F(SimulateTest, SameArgumentsGiveTheSameBytes)
+{
+  ASSERT_EQ(simulate("--scene table --out a.pcd --depth a.png --objects a.json"), 0);
+  ASSERT_EQ(simulate("--scene table --out b.pcd --depth b.png --objects b.json"), 0);
+  for (const std::string type : {"pcd", "png", "json"})
+    EXPECT_EQ(content("a." + type), content("b." + type));
+}
+
+TEST_F(SimulateTest, RefusesBadUsage)
+{
+  for (const char* arguments :
+       {"", "--scene table", "--scene tables --out a.pcd", "--scene table --out a.pcd --seed -1",
+        "--scene table --out a.pcd --capture-radius 0", "--scene table --list"}) {
+    EXPECT_EQ(simulate(arguments), 2) << arguments;
+    EXPECT_FALSE(content("stderr").empty()) << arguments;
+  }
+}
+
+TEST_F(SimulateTest, NamesTheFileThatCannotBeWritten)
+{
+  for (const std::string option : {"--out", "--depth", "--objects"}) {
+    EXPECT_EQ(simulate("--scene empty_table " + option + " missing/file"), 1);
+    EXPECT_EQ(content("stderr").find("simulate: cannot write missing/file: "), 0U) << content("stderr");
+  }
+}
+
+}  // namespace
+}  // namespace grasp_affordances
