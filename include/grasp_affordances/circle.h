@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <vector>
 
 namespace grasp_affordances
 {
@@ -22,5 +23,12 @@ struct Circle
 /// see docs/accuracy.md.
 std::optional<Circle> fitCircle(const Neighborhood& neighborhood, const Eigen::Vector3d& first,
                                 const Eigen::Vector3d& second);
+
+/// Circle through points of a plane by Taubin's method: the algebraic distance over its gradient, without the bias
+/// towards small radii (G. Taubin, "Estimation of planar curves, surfaces and nonplanar space curves defined by
+/// implicit equations", PAMI 13, 1991; Newton's method as in N. Chernov, "Circular and linear regression", 2010,
+/// section 5.9). Empty for fewer than three points and for points on a line. `center` and `mean` in the points' own
+/// frame.
+std::optional<Circle> fitCircleTaubin(const std::vector<Eigen::Vector2d>& points);
 
 }  // namespace grasp_affordances

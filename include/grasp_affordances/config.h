@@ -34,6 +34,7 @@ struct SamplingConfig
 {
   int samples = 4000;      ///< neighborhoods drawn per cloud (n of Algorithm 1)
   std::uint64_t seed = 1;  ///< every cloud is seeded with it afresh
+  bool screen = true;      ///< sample only where the cloud falls away on both sides, evenly over the image
 };
 
 struct NeighborhoodConfig
@@ -47,7 +48,7 @@ struct NeighborhoodConfig
 struct OcclusionConfig
 {
   bool filter = true;
-  int max_points_in_front = 20;         ///< more measured points than this in front of a neighborhood reject it
+  int max_points_in_front = 100;        ///< more measured points than this in front of a neighborhood reject it
   double min_distance_in_front = 0.05;  ///< m, by which such a point is nearer than the neighborhood's closest point
 };
 
@@ -69,9 +70,13 @@ struct ShellConfig
   double min_length = 0.03;          ///< m, shortest measured extent that is accepted
   double max_length = 0.12;          ///< m, extent beyond which nothing is measured
   double length_resolution = 0.003;  ///< m, of the measured extent
-  double min_fill = 0.8;             ///< share of the inner radius that the surface reaches all along a measured extent
+  double min_fill = 0.65;            ///< share of the inner radius that the surface reaches all along a measured extent
+  double depth_error = 0.006;        ///< m at a depth of 1 m, growing with its square: by so much it may fall short
+  bool recenter = true;              ///< fit the cylinder anew to the points inside a shell, and search again
+  bool continue_surfaces = true;  ///< surfaces seen on both sides of a shadow go on through it, and block a gap there
   bool require_observed_gap = true;  ///< require that the sensor saw through a share of the gap
-  double min_observed_free = 0.3;    ///< that share
+  double min_observed_free = 0.25;   ///< that share
+  double min_coverage = 0.7;         ///< share of the silhouette that shows surface inside the shell; 0: not judged
   bool scale_with_density = true;  ///< thresholds that count points follow the density of points at the sample's range
   double reference_spacing =
       0.0015;  ///< m between neighboring pixels at the range where those thresholds hold as given

@@ -15,4 +15,11 @@ namespace grasp_affordances
 double observedFreeShare(const RangeImage& image, const ShellSearchResult& shell, const Eigen::Vector3d& axis,
                          const Eigen::Vector3d& normal, double thickness);
 
+/// Share of a shell's silhouette, as the sensor sees it, that shows surface inside the shell: of a lattice of points
+/// across the inner radius and along the length, those whose pixel measured a point inside, among those whose pixel
+/// measured one inside or behind. A bar fills its silhouette; the rim of a mug, or a sliver of something larger, does
+/// not. Zero where nothing was measured; what is in front of the shell does not count.
+double silhouetteCoverage(const RangeImage& image, const ShellSearchResult& shell, const Eigen::Vector3d& axis,
+                          const Eigen::Vector3d& normal);
+
 }  // namespace grasp_affordances

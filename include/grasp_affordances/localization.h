@@ -39,9 +39,10 @@ enum class Outcome : std::uint8_t
   no_shell,        ///< no radius up to the capture radius has a clear gap around enough points
   too_short,       ///< a clear gap, but over less than the minimum length
   unobserved_gap,  ///< a clear gap of which the sensor saw too little
+  uncovered,       ///< a shell of whose silhouette too little shows surface inside it
   shell            ///< a cylindrical shell
 };
-constexpr std::size_t kOutcomes = 9;
+constexpr std::size_t kOutcomes = 10;
 
 /// Key of an outcome in `counts` ("too_few_points", ..., "shells").
 const char* outcomeName(Outcome outcome);

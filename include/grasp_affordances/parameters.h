@@ -37,6 +37,8 @@ void visitParameters(ConfigT& c, Visitor&& visit)
   visit("sampling/samples", c.sampling.samples, Count{1, 1000000}, "", "neighborhoods drawn per cloud");
   visit("sampling/seed", c.sampling.seed, Range<std::uint64_t>{0, (std::uint64_t{1} << 53) - 1}, "",
         "of the random draws, the same for every cloud");
+  visit("sampling/screen", c.sampling.screen,
+        "sample only where the cloud falls away on both sides, evenly over the image");
 
   visit("neighborhood/kind", c.neighborhood.kind, "all points within a sphere, or the k nearest");
   visit("neighborhood/radius", c.neighborhood.radius, Real{0.0, 0.5}, "m", "of the sphere; 0: the capture radius");
@@ -72,9 +74,16 @@ void visitParameters(ConfigT& c, Visitor&& visit)
   visit("shell/length_resolution", c.shell.length_resolution, Real{0.0005, 0.05}, "m", "of the measured extent");
   visit("shell/min_fill", c.shell.min_fill, Real{0.0, 0.99}, "",
         "share of the inner radius that the surface reaches all along a measured extent");
+  visit("shell/depth_error", c.shell.depth_error, Real{0.0, 0.1}, "m",
+        "at a depth of 1 m, growing with its square: by so much the surface may fall short of that");
+  visit("shell/recenter", c.shell.recenter, "fit the cylinder anew to the points inside a shell, and search again");
+  visit("shell/continue_surfaces", c.shell.continue_surfaces,
+        "surfaces seen on both sides of a shadow go on through it, and block a gap there");
   visit("shell/require_observed_gap", c.shell.require_observed_gap,
         "require that the sensor saw through a share of the gap");
   visit("shell/min_observed_free", c.shell.min_observed_free, Real{0.0, 1.0}, "", "that share");
+  visit("shell/min_coverage", c.shell.min_coverage, Real{0.0, 1.0}, "",
+        "share of the silhouette that shows surface inside the shell; 0: not judged");
   visit("shell/scale_with_density", c.shell.scale_with_density,
         "thresholds that count points follow the density of points at the sample's range");
   visit("shell/reference_spacing", c.shell.reference_spacing, Real{0.0001, 0.1}, "m",

@@ -44,6 +44,14 @@ public:
   /// that the cloud carries and that do not fit are replaced by estimated ones, with a warning.
   static std::optional<RangeImage> create(const Cloud& cloud, std::string& warning);
 
+  /// Another cloud of the same size, each point of which is on its pixel's ray, seen by the same camera.
+  RangeImage withCloud(const Cloud& cloud) const
+  {
+    RangeImage image = *this;
+    image.cloud_ = &cloud;
+    return image;
+  }
+
   const Cloud& cloud() const { return *cloud_; }
   const PinholeIntrinsics& intrinsics() const { return intrinsics_; }
 

@@ -55,9 +55,14 @@ Config paperConfig()
 {
   Config config;
   config.preset = "paper";
+  config.sampling.screen = false;
+  config.occlusion.max_points_in_front = 20;
   config.occlusion.min_distance_in_front = 0.0;
   config.estimation.reject_concave = false;
   config.shell.measure_length = false;
+  config.shell.recenter = false;
+  config.shell.min_coverage = 0.0;
+  config.shell.continue_surfaces = false;
   config.shell.require_observed_gap = false;
   config.shell.scale_with_density = false;
   return config;

@@ -7,6 +7,7 @@
 #include "grasp_affordances/principal_axis.h"
 #include "grasp_affordances/quadric.h"
 #include "grasp_affordances/random.h"
+#include "grasp_affordances/sampling.h"
 #include "grasp_affordances/shell.h"
 
 #include "core/prepared_cloud.h"
@@ -100,8 +101,7 @@ Outcome SampleKernel::examine(const PreparedCloud& prepared, const Config& confi
 {
   Stopwatch stopwatch;
   const std::uint64_t seed = config.sampling.seed;
-  const auto count = static_cast<std::uint32_t>(prepared.measured.size());
-  const std::uint32_t point = prepared.measured[randomIndex(randomBits(seed, i), count)];
+  const std::uint32_t point = samplePoint(prepared.measured, prepared.candidates, config.sampling, i);
 
   findNeighborhood(prepared, config, point);
   times.neighborhoods += stopwatch.lap();
@@ -202,8 +202,10 @@ std::optional<CylinderEstimate> SampleKernel::fitCylinder(const PreparedCloud& p
 Outcome SampleKernel::fitShell(const PreparedCloud& prepared, const Config& config, const FittedCylinder& cylinder,
                                Shell& shell)
 {
-  const double spacing = prepared.spacing(neighborhood_.center.cast<double>());
-  const ShellSearchResult found = shell_search_.search(*prepared.search, cylinder, config.hand, config.shell, spacing);
+  const Surroundings surroundings{*prepared.search, prepared.hidden_search.get(),
+                                  prepared.image ? &*prepared.image : nullptr,
+                                  prepared.spacing(neighborhood_.center.cast<double>())};
+  const ShellSearchResult found = shell_search_.search(surroundings, cylinder, config.hand, config.shell);
   if (found.status != ShellSearchResult::found) {
     return found.status == ShellSearchResult::too_short ? Outcome::too_short : Outcome::no_shell;
   }
@@ -216,10 +218,19 @@ Outcome SampleKernel::fitShell(const PreparedCloud& prepared, const Config& conf
   shell.length = found.length;
   shell.points_inside = found.points_inside;
   shell.points_in_gap = found.points_in_gap;
-  shell.observed_free =
-      prepared.image ? observedFreeShare(*prepared.image, found, shell.axis, shell.normal, shell.thickness) : kUnknown;
-  const bool unobserved = shell.observed_free < config.shell.min_observed_free;  // false for NaN
-  return config.shell.require_observed_gap && unobserved ? Outcome::unobserved_gap : Outcome::shell;
+  shell.observed_free = kUnknown;
+  if (!prepared.image) {
+    return Outcome::shell;
+  }
+  shell.observed_free = observedFreeShare(*prepared.image, found, shell.axis, shell.normal, shell.thickness);
+  if (config.shell.require_observed_gap && shell.observed_free < config.shell.min_observed_free) {
+    return Outcome::unobserved_gap;
+  }
+  if (config.shell.min_coverage > 0.0 &&
+      silhouetteCoverage(*prepared.image, found, shell.axis, shell.normal) < config.shell.min_coverage) {
+    return Outcome::uncovered;
+  }
+  return Outcome::shell;
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "core/prepared_cloud.h"
 
+#include "grasp_affordances/hidden_surfaces.h"
+#include "grasp_affordances/sampling.h"
+
 #include <algorithm>
 
 namespace grasp_affordances
@@ -59,6 +62,16 @@ PreparedCloud::PreparedCloud(const Cloud& cloud, const Config& config, ThreadTea
   image = RangeImage::create(cloud, warning);
   if (image) {
     search = makeWindowSearch(*image, measured.size());
+    if (config.sampling.screen) {
+      candidates =
+          screenPoints(*image, config.hand, static_cast<std::size_t>(config.sampling.samples), config.sampling.seed);
+    }
+    if (config.shell.continue_surfaces) {
+      constexpr double kWidestBridge = 8.0;  // capture radii: what a hand can grasp, and the shadow beside it
+      hidden = continueSurfaces(*image, kWidestBridge * config.hand.capture_radius);
+      hidden_image = image->withCloud(hidden);
+      hidden_search = makeWindowSearch(*hidden_image, 0);
+    }
   } else {
     sensor = cloud.sensor_origin.cast<double>();
     search = makeTreeSearch(cloud);

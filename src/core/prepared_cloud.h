@@ -34,9 +34,13 @@ struct PreparedCloud
   const Cloud& cloud;
   std::vector<std::uint32_t> measured;  // indices of the measured points
   std::optional<RangeImage> image;
+  std::vector<std::uint32_t> candidates;       // indices of the points that are worth a sample; all are, if empty
   std::unique_ptr<NeighborhoodSearch> search;  // null where there is nothing to localize
-  Eigen::Vector3d sensor;                      // m, in the cloud's frame
-  Normals normals;                             // only for the Normals variation
+  Cloud hidden;                                // surfaces that go on behind what the sensor saw
+  std::optional<RangeImage> hidden_image;
+  std::unique_ptr<NeighborhoodSearch> hidden_search;  // null where no hidden surfaces are asked for
+  Eigen::Vector3d sensor;                             // m, in the cloud's frame
+  Normals normals;                                    // only for the Normals variation
   std::vector<std::string> warnings;
 };
 

@@ -1,5 +1,9 @@
 #include "grasp_affordances/shell.h"
 
+#include "grasp_affordances/circle.h"
+
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,17 +54,38 @@ PointThresholds pointThresholds(const ShellConfig& config, double spacing)
   return thresholds;
 }
 
-ShellSearchResult ShellSearch::search(const NeighborhoodSearch& cloud, const FittedCylinder& cylinder,
-                                      const HandGeometry& hand, const ShellConfig& config, double spacing)
+ShellSearchResult ShellSearch::search(const Surroundings& surroundings, const FittedCylinder& cylinder,
+                                      const HandGeometry& hand, const ShellConfig& config)
+{
+  const ShellSearchResult found = searchAbout(surroundings, cylinder, hand, config);
+  if (!config.recenter || found.status != ShellSearchResult::found) {
+    return found;
+  }
+  const auto refitted = refit(cylinder, found, hand, config.radius_step);
+  return refitted ? searchAbout(surroundings, *refitted, hand, config) : found;
+}
+
+ShellSearchResult ShellSearch::searchAbout(const Surroundings& surroundings, const FittedCylinder& cylinder,
+                                           const HandGeometry& hand, const ShellConfig& config)
 {
   ShellSearchResult result;
   if (!(cylinder.radius <= hand.capture_radius)) {
     return result;
   }
+  const double spacing = surroundings.spacing;
+  const double depth_error =
+      surroundings.image != nullptr ? config.depth_error * cylinder.origin.z() * cylinder.origin.z() : 0.0;
   slices_ = makeSlices(config, spacing);
   steps_ = static_cast<std::size_t>((hand.capture_radius - cylinder.radius) / config.radius_step) + 1;
-  gatherPoints(cloud, cylinder, hand.capture_radius + hand.finger_thickness);
-  countPoints(cylinder, hand, config);
+  const Axis axis(cylinder);
+  const double outermost = hand.capture_radius + hand.finger_thickness;
+  gatherPoints(surroundings.cloud, axis, outermost, points_);
+  hidden_points_.clear();
+  if (surroundings.hidden != nullptr) {
+    gatherPoints(*surroundings.hidden, axis, outermost, hidden_points_);
+  }
+  countPoints(cylinder.radius, depth_error, hand, config);
+  findUnseenSlices(surroundings.image, axis, cylinder.radius, hand);
 
   const PointThresholds thresholds = pointThresholds(config, spacing);
   const double points_to_block_slice =
@@ -68,10 +93,11 @@ ShellSearchResult ShellSearch::search(const NeighborhoodSearch& cloud, const Fit
   const auto clear_and_occupied = [&](const Extent& extent) {
     const double lengths = std::max(1.0, extent.length() / config.clearance_length);
     return extent.inside >= lengths * thresholds.min_points_inside &&
-           extent.in_gap < lengths * thresholds.gap_points_to_block;
+           extent.in_gap + extent.hidden_in_gap < lengths * thresholds.gap_points_to_block;
   };
   for (std::size_t j = 0; j < steps_; ++j) {
-    Extent extent = config.measure_length ? measuredExtent(j, points_to_block_slice) : wholeExtent(j);
+    Extent extent =
+        config.measure_length ? measuredExtent(j, points_to_block_slice) : extentOf(j, 0, slices_.count - 1);
     if (!clear_and_occupied(extent)) {
       continue;
     }
@@ -95,6 +121,31 @@ ShellSearchResult ShellSearch::search(const NeighborhoodSearch& cloud, const Fit
   return result;
 }
 
+/// The cylinder about the same direction through the points inside a shell, which was just found. The radius is the
+/// surface's, up to the next whole number of steps below the capture radius: so the last shell that is tried is the
+/// largest that the hand can enclose.
+std::optional<FittedCylinder> ShellSearch::refit(const FittedCylinder& cylinder, const ShellSearchResult& found,
+                                                 const HandGeometry& hand, double radius_step) const
+{
+  const double middle = (found.centroid - cylinder.origin).dot(cylinder.axis);
+  std::vector<Eigen::Vector2d> inside;
+  for (const AxisPoint& point : points_) {
+    if (std::abs(point.along - middle) <= found.length / 2 && point.radial <= found.inner_radius) {
+      inside.push_back(point.across);
+    }
+  }
+  const auto circle = fitCircleTaubin(inside);
+  if (!circle) {
+    return std::nullopt;
+  }
+  const Axis axis(cylinder);
+  FittedCylinder refitted = cylinder;
+  refitted.origin += circle->center.x() * axis.first + circle->center.y() * axis.second;
+  const double room = hand.capture_radius - circle->radius;
+  refitted.radius = room >= 0.0 ? hand.capture_radius - std::floor(room / radius_step) * radius_step : circle->radius;
+  return refitted;
+}
+
 // Without a measured length there is one slice, the clearance length. Otherwise their number is odd: the sample is in
 // the middle of the middle one.
 ShellSearch::Slices ShellSearch::makeSlices(const ShellConfig& config, double spacing)
@@ -110,56 +161,127 @@ ShellSearch::Slices ShellSearch::makeSlices(const ShellConfig& config, double sp
   return slices;
 }
 
-void ShellSearch::gatherPoints(const NeighborhoodSearch& cloud, const FittedCylinder& cylinder, double outer_radius)
+ShellSearch::Axis::Axis(const FittedCylinder& cylinder)
+    : origin(cylinder.origin),
+      direction(cylinder.axis),
+      first(direction.unitOrthogonal()),
+      second(direction.cross(first))
+{
+}
+
+void ShellSearch::gatherPoints(const NeighborhoodSearch& cloud, const Axis& axis, double outer_radius,
+                               std::vector<AxisPoint>& points)
 {
   const double half_length = -slices_.begin;
   const double sphere = std::hypot(outer_radius, half_length);
-  cloud.withinRadius(cylinder.origin.cast<float>(), static_cast<float>(1.0001 * sphere), surroundings_);
-  points_.clear();
-  for (std::size_t i = 0; i < surroundings_.size(); ++i) {
-    const Eigen::Vector3d p = surroundings_.point(i).cast<double>() - cylinder.origin;
-    const double along = p.dot(cylinder.axis);
-    const double radial = (p - along * cylinder.axis).norm();
+  cloud.withinRadius(axis.origin.cast<float>(), static_cast<float>(1.0001 * sphere), sphere_);
+  points.clear();
+  for (std::size_t i = 0; i < sphere_.size(); ++i) {
+    const Eigen::Vector3d p = sphere_.point(i).cast<double>() - axis.origin;
+    const double along = p.dot(axis.direction);
+    const Eigen::Vector2d across(p.dot(axis.first), p.dot(axis.second));
+    const double radial = across.norm();
     if (std::abs(along) <= half_length && radial <= outer_radius) {
-      points_.push_back({along, radial});
+      points.push_back({across, along, radial});
     }
   }
 }
 
-void ShellSearch::countPoints(const FittedCylinder& cylinder, const HandGeometry& hand, const ShellConfig& config)
+std::size_t ShellSearch::sliceOf(const AxisPoint& point) const
 {
-  const double radius = cylinder.radius;
+  return std::min(static_cast<std::size_t>((point.along - slices_.begin) / slices_.thickness), slices_.count - 1);
+}
+
+void ShellSearch::countPoints(double first_radius, double depth_error, const HandGeometry& hand,
+                              const ShellConfig& config)
+{
   const double step = config.radius_step;
-  for (auto* counts : {&fill_counts_, &inner_counts_, &outer_counts_}) {
-    counts->assign(steps_ * slices_.count, 0);
+  const double first_outer = first_radius + hand.finger_thickness;
+  for (Counts* counts : {&fill_, &inner_, &outer_, &hidden_inner_, &hidden_outer_}) {
+    counts->reset(steps_, slices_.count);
   }
-  const auto count = [&](std::vector<std::uint32_t>& counts, std::size_t first_step, std::size_t slice) {
-    if (first_step < steps_) {
-      ++counts[first_step * slices_.count + slice];
-    }
-  };
   for (const AxisPoint& point : points_) {
-    const auto slice =
-        std::min(static_cast<std::size_t>((point.along - slices_.begin) / slices_.thickness), slices_.count - 1);
-    count(fill_counts_, firstStepReaching(point.radial, config.min_fill * radius, config.min_fill * step, steps_),
-          slice);
-    count(inner_counts_, firstStepReaching(point.radial, radius, step, steps_), slice);
-    count(outer_counts_, firstStepReaching(point.radial, radius + hand.finger_thickness, step, steps_), slice);
-  }
-  for (auto* counts : {&fill_counts_, &inner_counts_, &outer_counts_}) {
-    for (std::size_t i = slices_.count; i < counts->size(); ++i) {
-      (*counts)[i] += (*counts)[i - slices_.count];
+    const std::size_t slice = sliceOf(point);
+    inner_.add(point.radial, slice, first_radius, step);
+    outer_.add(point.radial, slice, first_outer, step);
+    if (config.min_fill > 0.0) {
+      // Larger shells than this are no longer filled by the point.
+      const double filled = std::max(point.radial / config.min_fill, point.radial + depth_error);
+      fill_.add(filled, slice, first_radius, step);
     }
+  }
+  for (const AxisPoint& point : hidden_points_) {
+    const std::size_t slice = sliceOf(point);
+    hidden_inner_.add(point.radial, slice, first_radius, step);
+    hidden_outer_.add(point.radial, slice, first_outer, step);
+  }
+  for (Counts* counts : {&fill_, &inner_, &outer_, &hidden_inner_, &hidden_outer_}) {
+    counts->accumulate();
   }
 }
 
-ShellSearch::Extent ShellSearch::wholeExtent(std::size_t step) const
+/// The slices of which the sensor could see nothing: in front of the axis something nearer than the hand reaches was
+/// measured, or nothing.
+void ShellSearch::findUnseenSlices(const RangeImage* image, const Axis& axis, double radius, const HandGeometry& hand)
 {
-  Extent extent{slices_.begin, -slices_.begin, 0, 0};
+  unseen_.assign(slices_.count, false);
+  if (image == nullptr) {
+    return;
+  }
+  const Eigen::Vector3d across = 0.5 * radius * axis.direction.cross(axis.origin).normalized();
+  const auto seen = [&](const Eigen::Vector3d& point) {
+    const auto pixel = image->pixel(point);
+    return pixel && image->cloud().measured(*pixel) &&
+           image->cloud().point(*pixel).cast<double>().norm() > point.norm() - hand.capture_radius;
+  };
   for (std::size_t slice = 0; slice < slices_.count; ++slice) {
-    const std::size_t i = step * slices_.count + slice;
-    extent.inside += inner_counts_[i];
-    extent.in_gap += outer_counts_[i] - inner_counts_[i];
+    const double along = slices_.begin + (static_cast<double>(slice) + 0.5) * slices_.thickness;
+    const Eigen::Vector3d middle = axis.origin + along * axis.direction;
+    unseen_[slice] = !seen(middle - across) && !seen(middle) && !seen(middle + across);
+  }
+}
+
+void ShellSearch::Counts::reset(std::size_t steps, std::size_t slices)
+{
+  steps_ = steps;
+  slices_ = slices;
+  counts_.assign(steps * slices, 0);
+}
+
+void ShellSearch::Counts::add(double radius, std::size_t slice, double first_radius, double radius_step)
+{
+  const std::size_t step = firstStepReaching(radius, first_radius, radius_step, steps_);
+  if (step < steps_) {
+    ++counts_[step * slices_ + slice];
+  }
+}
+
+void ShellSearch::Counts::accumulate()
+{
+  for (std::size_t i = slices_; i < counts_.size(); ++i) {
+    counts_[i] += counts_[i - slices_];
+  }
+}
+
+std::uint32_t ShellSearch::gapPoints(std::size_t step, std::size_t slice) const
+{
+  return outer_(step, slice) - inner_(step, slice);
+}
+
+std::uint32_t ShellSearch::hiddenGapPoints(std::size_t step, std::size_t slice) const
+{
+  return hidden_outer_(step, slice) - hidden_inner_(step, slice);
+}
+
+ShellSearch::Extent ShellSearch::extentOf(std::size_t step, std::size_t first_slice, std::size_t last_slice) const
+{
+  Extent extent;
+  extent.begin = slices_.begin + static_cast<double>(first_slice) * slices_.thickness;
+  extent.end = slices_.begin + static_cast<double>(last_slice + 1) * slices_.thickness;
+  for (std::size_t slice = first_slice; slice <= last_slice; ++slice) {
+    extent.inside += inner_(step, slice);
+    extent.in_gap += gapPoints(step, slice);
+    extent.hidden_in_gap += hiddenGapPoints(step, slice);
   }
   return extent;
 }
@@ -167,11 +289,12 @@ ShellSearch::Extent ShellSearch::wholeExtent(std::size_t step) const
 /// The slices around the sample's that follow one another occupied inside and clear around.
 ShellSearch::Extent ShellSearch::measuredExtent(std::size_t step, double points_to_block_slice) const
 {
-  const std::uint32_t* fill = &fill_counts_[step * slices_.count];
-  const std::uint32_t* inner = &inner_counts_[step * slices_.count];
-  const std::uint32_t* outer = &outer_counts_[step * slices_.count];
+  const auto occupied = [&](std::size_t slice) {
+    const std::uint32_t inside = inner_(step, slice);
+    return inside > fill_(step, slice) || (inside == 0 && unseen_[slice]);
+  };
   const auto graspable = [&](std::size_t slice) {
-    return inner[slice] > fill[slice] && outer[slice] - inner[slice] < points_to_block_slice;
+    return occupied(slice) && gapPoints(step, slice) + hiddenGapPoints(step, slice) < points_to_block_slice;
   };
   const std::size_t middle = slices_.count / 2;
   if (!graspable(middle)) {
@@ -184,14 +307,7 @@ ShellSearch::Extent ShellSearch::measuredExtent(std::size_t step, double points_
   while (last + 1 < slices_.count && graspable(last + 1)) {
     ++last;
   }
-  Extent extent;
-  extent.begin = slices_.begin + static_cast<double>(first) * slices_.thickness;
-  extent.end = slices_.begin + static_cast<double>(last + 1) * slices_.thickness;
-  for (std::size_t slice = first; slice <= last; ++slice) {
-    extent.inside += inner[slice];
-    extent.in_gap += outer[slice] - inner[slice];
-  }
-  return extent;
+  return extentOf(step, first, last);
 }
 
 /// From whole slices to the outermost points inside, each of which stands for a surface that goes on by `margin`, but
@@ -210,11 +326,18 @@ ShellSearch::Extent ShellSearch::refinedExtent(const Extent& extent, double inne
   }
   refined.begin = std::max({refined.begin, extent.begin, -max_length / 2});
   refined.end = std::min({refined.end, extent.end, max_length / 2});
+  const auto within = [&](const AxisPoint& point) {
+    return point.along >= refined.begin && point.along <= refined.end;
+  };
+  const auto in_gap = [&](const AxisPoint& point) {
+    return within(point) && point.radial > inner_radius && point.radial <= outer_radius;
+  };
   for (const AxisPoint& point : points_) {
-    if (point.along >= refined.begin && point.along <= refined.end) {
-      refined.inside += point.radial <= inner_radius ? 1 : 0;
-      refined.in_gap += point.radial > inner_radius && point.radial <= outer_radius ? 1 : 0;
-    }
+    refined.inside += within(point) && point.radial <= inner_radius ? 1 : 0;
+    refined.in_gap += in_gap(point) ? 1 : 0;
+  }
+  for (const AxisPoint& point : hidden_points_) {
+    refined.hidden_in_gap += in_gap(point) ? 1 : 0;
   }
   return refined;
 }

@@ -97,6 +97,7 @@ LocalizationStatistics statisticsMessage(const Localization& localization, const
   message.no_shell = count(Outcome::no_shell);
   message.too_short = count(Outcome::too_short);
   message.unobserved_gap = count(Outcome::unobserved_gap);
+  message.uncovered = count(Outcome::uncovered);
   message.shells = count(Outcome::shell);
 
   message.milliseconds_total = localization.milliseconds.total;

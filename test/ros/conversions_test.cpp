@@ -75,7 +75,7 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   for (std::size_t outcome = 0; outcome < kOutcomes; ++outcome) {
     localization.counts[outcome] = 10 + static_cast<std::uint32_t>(outcome);
   }
-  localization.sampled = 126;
+  localization.sampled = 145;
   localization.points = 1000;
   localization.threads = 3;
   localization.milliseconds.total = 1.5;
@@ -91,7 +91,7 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   EXPECT_EQ(message.seed, 7U);
   EXPECT_EQ(message.threads, 3U);
   EXPECT_EQ(message.points, 1000U);
-  EXPECT_EQ(message.sampled, 126U);
+  EXPECT_EQ(message.sampled, 145U);
   EXPECT_EQ(message.too_few_points, 10U);
   EXPECT_EQ(message.degenerate, 11U);
   EXPECT_EQ(message.occluded, 12U);
@@ -100,7 +100,8 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   EXPECT_EQ(message.no_shell, 15U);
   EXPECT_EQ(message.too_short, 16U);
   EXPECT_EQ(message.unobserved_gap, 17U);
-  EXPECT_EQ(message.shells, 18U);
+  EXPECT_EQ(message.uncovered, 18U);
+  EXPECT_EQ(message.shells, 19U);
   EXPECT_EQ(message.milliseconds_total, 1.5);
   EXPECT_EQ(message.milliseconds_fit, 0.5);
   ASSERT_EQ(message.warnings.size(), 1U);

@@ -17,7 +17,7 @@ from helpers import Listener, cloud, publisher, scene, wait_until
 
 OUTPUTS = {'shells': CylindricalShellArray, 'markers': MarkerArray, 'statistics': LocalizationStatistics}
 OUTCOMES = ('too_few_points', 'degenerate', 'occluded', 'low_curvature', 'concave', 'no_shell', 'too_short',
-            'unobserved_gap', 'shells')
+            'unobserved_gap', 'uncovered', 'shells')
 
 
 def others_subscribed_to(topic):

@@ -73,5 +73,44 @@ TEST(CircleFit, IsBiasedTowardsSmallRadiiOnShortNoisyArcs)
   EXPECT_NEAR(radiusBias(0.01, arc, small_noise) / radiusBias(0.02, arc, small_noise), 4.0, 1.0);
 }
 
+TEST(TaubinCircleFit, RecoversCirclesWithoutTheBias)
+{
+  constexpr int kArcs = 200;
+  Random random(42);
+  for (const double arc : {M_PI, 2 * M_PI / 3, M_PI / 2}) {
+    double bias = 0.0;
+    for (int i = 0; i < kArcs; ++i) {
+      std::vector<Eigen::Vector2d> points;
+      for (const Eigen::Vector3d& p : cylinderPoints(0.02, arc, 0.03, 300, random, 0.001)) {
+        points.emplace_back(p.x() + 0.3, p.y() - 0.2);
+      }
+      const auto circle = fitCircleTaubin(points);
+      ASSERT_TRUE(circle);
+      bias += (circle->radius / 0.02 - 1.0) / kArcs;
+    }
+    EXPECT_NEAR(bias, 0.0, 0.01) << "arc " << arc;
+  }
+}
+
+TEST(TaubinCircleFit, IsExactOnExactPoints)
+{
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < 20; ++i) {
+    points.emplace_back(1.0 + 0.03 * std::cos(0.05 * i), -2.0 + 0.03 * std::sin(0.05 * i));
+  }
+  const auto circle = fitCircleTaubin(points);
+  ASSERT_TRUE(circle);
+  EXPECT_NEAR(circle->radius, 0.03, 1e-8);
+  EXPECT_LT((circle->center - Eigen::Vector2d(1.0, -2.0)).norm(), 1e-8);
+}
+
+TEST(TaubinCircleFit, HasNoneForPointsOnALine)
+{
+  EXPECT_FALSE(fitCircleTaubin({}));
+  EXPECT_FALSE(fitCircleTaubin({{0.0, 0.0}, {1.0, 1.0}}));
+  EXPECT_FALSE(fitCircleTaubin({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}, {3.0, 3.0}}));
+  EXPECT_FALSE(fitCircleTaubin({{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}));
+}
+
 }  // namespace
 }  // namespace grasp_affordances::test
