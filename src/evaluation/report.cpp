@@ -1,0 +1,290 @@
+#include "evaluation/report.h"
+
+#include "grasp_affordances/parameters.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <initializer_list>
+#include <sstream>
+#include <stdexcept>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+using Json = nlohmann::json;
+
+const std::string& estimatorName(const Config& config)
+{
+  return enumWord(config.estimation.estimator);
+}
+
+void writeFile(const std::string& path, const std::string& content)
+{
+  std::ofstream file(path, std::ios::binary);
+  if (!(file << content) || !file.flush()) {
+    throw std::runtime_error(path + ": cannot be written");
+  }
+}
+
+/// Comma-separated values; what is not finite is empty.
+class Table
+{
+public:
+  explicit Table(const std::string& header) { text_ << header << "\n"; }
+
+  template <class... Values>
+  void add(const Values&... values)
+  {
+    ((text_ << separator_, cell(values), separator_ = ","), ...);
+  }
+
+  void endRow()
+  {
+    text_ << "\n";
+    separator_ = "";
+  }
+
+  template <class... Values>
+  void addRow(const Values&... values)
+  {
+    add(values...);
+    endRow();
+  }
+
+  void save(const std::string& path) const { writeFile(path, text_.str()); }
+
+private:
+  template <class Value>
+  void cell(const Value& value)
+  {
+    text_ << value;
+  }
+  void cell(double value)
+  {
+    if (std::isfinite(value)) {
+      text_ << value;
+    }
+  }
+
+  std::ostringstream text_;
+  const char* separator_ = "";
+};
+
+void writeShells(const std::string& path, const Evaluation& evaluation)
+{
+  Table table(
+      "scene,seed,run,preset,estimator,shell,verdict,affordance,x,y,z,axis_x,axis_y,axis_z,inner_radius,length,"
+      "curvature,observed_free,points_inside,points_in_gap,point_index");
+  for (const FrameResult& frame : evaluation.frames) {
+    for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
+      const Config& config = evaluation.variations[variation];
+      for (std::size_t run = 0; run < frame.runs[variation].size(); ++run) {
+        const auto& shells = frame.runs[variation][run].shells;
+        for (std::size_t i = 0; i < shells.size(); ++i) {
+          const Shell& s = shells[i].shell;
+          const Verdict& verdict = shells[i].verdict;
+          table.addRow(frame.scene, frame.seed, run + 1, config.preset, estimatorName(config), i,
+                       verdictName(verdict.kind), verdict.affordance, s.centroid.x(), s.centroid.y(), s.centroid.z(),
+                       s.axis.x(), s.axis.y(), s.axis.z(), s.inner_radius, s.length, s.curvature, s.observed_free,
+                       s.points_inside, s.points_in_gap, s.point_index);
+        }
+      }
+    }
+  }
+  table.save(path);
+}
+
+void writeAffordances(const std::string& path, const Evaluation& evaluation)
+{
+  Table table(
+      "scene,seed,preset,estimator,label,object,visible_points,occluded_share,distance,radius,length,runs,found,"
+      "chance");
+  for (const FrameResult& frame : evaluation.frames) {
+    for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
+      const Config& config = evaluation.variations[variation];
+      for (const Affordance& a : frame.affordances) {
+        std::size_t found = 0;
+        double chances = 0.0;
+        for (const Run& run : frame.runs[variation]) {
+          found += finds(run, a.label) ? 1 : 0;
+          chances += samplingChance(a.visible_points, frame.points, run.sampled);
+        }
+        table.addRow(frame.scene, frame.seed, config.preset, estimatorName(config), a.label, a.object, a.visible_points,
+                     a.occluded_share, a.distance, a.radius, a.length, evaluation.runs, found,
+                     chances / static_cast<double>(evaluation.runs));
+      }
+    }
+  }
+  table.save(path);
+}
+
+void writeSummary(const std::string& path, const Evaluation& evaluation, const std::vector<SummaryRow>& rows)
+{
+  std::string header =
+      "scene,group,preset,estimator,frames,runs,right,wrong,not_counted,wrong_per_run,precision,precision_low,"
+      "precision_high,unit_precision,unit_precision_low,unit_precision_high,taubin_difference,taubin_difference_low,"
+      "taubin_difference_high";
+  for (const VisibilityClass& visibility : kVisibilityClasses) {
+    const std::string key = visibility.key;
+    header += ",affordances_" + key + ",found_" + key + ",recall_" + key + ",chance_" + key;
+  }
+  Table table(header);
+  for (const SummaryRow& row : rows) {
+    const Config& config = evaluation.variations[row.variation];
+    const Score& s = row.score;
+    const Mean difference = row.taubin_difference.value_or(Mean());
+    table.add(row.scene, row.is_group ? 1 : 0, config.preset, estimatorName(config), s.frames, s.runs, s.precision.part,
+              s.wrong(), s.not_counted, s.wrongPerRun(), s.precision.value(), s.interval.low, s.interval.high,
+              s.unit_precision.value, s.unit_precision.interval.low, s.unit_precision.interval.high, difference.value,
+              difference.interval.low, difference.interval.high);
+    for (const Recall& recall : s.recall) {
+      table.add(recall.found.whole, recall.found.part, recall.found.value(), recall.chance);
+    }
+    table.endRow();
+  }
+  table.save(path);
+}
+
+Json json(const Interval& interval)
+{
+  return std::isnan(interval.low) ? Json() : Json{interval.low, interval.high};
+}
+
+Json json(const Mean& mean)
+{
+  return {{"mean", mean.value}, {"interval", json(mean.interval)}, {"units", mean.count}};
+}
+
+Json json(const SummaryRow& row, const Config& config)
+{
+  const Score& s = row.score;
+  Json recalls;
+  for (std::size_t i = 0; i < kVisibilityClasses.size(); ++i) {
+    const Recall& recall = s.recall[i];
+    recalls[kVisibilityClasses[i].key] = {{"affordances", recall.found.whole},
+                                          {"found", recall.found.part},
+                                          {"recall", recall.found.value()},
+                                          {"interval", json(recall.interval)},
+                                          {"chance", recall.chance}};
+  }
+  return {{"scene", row.scene},
+          {"group", row.is_group},
+          {"preset", config.preset},
+          {"estimator", estimatorName(config)},
+          {"frames", s.frames},
+          {"runs", s.runs},
+          {"right", s.precision.part},
+          {"wrong", s.wrong()},
+          {"not_counted", s.not_counted},
+          {"wrong_per_run", s.wrongPerRun()},
+          {"precision", s.precision.value()},
+          {"interval", json(s.interval)},
+          {"unit_precision", json(s.unit_precision)},
+          {"taubin_difference", row.taubin_difference ? json(*row.taubin_difference) : Json()},
+          {"recall", recalls}};
+}
+
+std::string text(const char* format, double value)
+{
+  char buffer[32];
+  std::snprintf(buffer, sizeof(buffer), format, value);
+  return buffer;
+}
+
+/// In percent, or a dash.
+std::string percent(double share)
+{
+  return std::isfinite(share) ? text("%.1f", 100.0 * share) : "–";
+}
+
+std::string percent(double share, const Interval& interval)
+{
+  const bool known = std::isfinite(share) && std::isfinite(interval.low);
+  return percent(share) + (known ? " (" + percent(interval.low) + " to " + percent(interval.high) + ")" : "");
+}
+
+std::string markdownRow(const SummaryRow& row, bool compares)
+{
+  const Score& s = row.score;
+  std::ostringstream line;
+  line << "| " << (row.is_group ? "**all of " + row.scene + "**" : row.scene) << " | " << s.frames << " × " << s.runs
+       << " | " << s.precision.part << " | " << s.wrong() << " | " << percent(s.precision.value(), s.interval) << " | "
+       << percent(s.unit_precision.value, s.unit_precision.interval) << " | " << text("%.2f", s.wrongPerRun());
+  for (const Recall& recall : s.recall) {
+    line << " | " << percent(recall.found.value());
+    if (recall.found.whole > 0) {
+      line << " of " << recall.found.whole;
+    }
+  }
+  line << " | " << percent(s.recall.back().chance);
+  if (compares) {
+    const Mean difference = row.taubin_difference.value_or(Mean());
+    line << " | " << percent(difference.value, difference.interval);
+  }
+  line << " |\n";
+  return line.str();
+}
+
+}  // namespace
+
+std::string markdownTables(const Evaluation& evaluation, const std::vector<SummaryRow>& rows)
+{
+  std::ostringstream tables;
+  for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
+    const Config& config = evaluation.variations[variation];
+    bool compares = false;
+    for (const SummaryRow& row : rows) {
+      compares = compares || (row.variation == variation && row.taubin_difference);
+    }
+    tables << (variation > 0 ? "\n" : "") << "Preset `" << config.preset << "`, " << estimatorName(config) << ", "
+           << config.sampling.samples << " samples. Precision and recall in percent, with 95 % intervals.\n\n"
+           << "| scene | frames × runs | right | wrong | precision | mean precision | wrong per run |";
+    for (const VisibilityClass& visibility : kVisibilityClasses) {
+      tables << " recall: " << visibility.title << " |";
+    }
+    tables << " chance: " << kVisibilityClasses.back().title << " |" << (compares ? " Taubin minus this |" : "")
+           << "\n|---|";
+    for (std::size_t i = 0; i < 7 + kVisibilityClasses.size() + (compares ? 1 : 0); ++i) {
+      tables << "---|";
+    }
+    tables << "\n";
+    for (const SummaryRow& row : rows) {
+      if (row.variation == variation) {
+        tables << markdownRow(row, compares);
+      }
+    }
+  }
+  return tables.str();
+}
+
+void writeReport(const std::string& folder, const Evaluation& evaluation, const std::vector<SummaryRow>& rows)
+{
+  writeShells(folder + "/shells.csv", evaluation);
+  writeAffordances(folder + "/affordances.csv", evaluation);
+  writeSummary(folder + "/summary.csv", evaluation, rows);
+  Json summary = Json::array();
+  for (const SummaryRow& row : rows) {
+    summary.push_back(json(row, evaluation.variations[row.variation]));
+  }
+  writeFile(folder + "/summary.json", summary.dump(1) + "\n");
+  writeFile(folder + "/table.md", markdownTables(evaluation, rows));
+}
+
+void writeRuntimes(const std::string& folder, const std::vector<Runtime>& runtimes)
+{
+  Table table("preset,estimator,samples,k,milliseconds,milliseconds_low,milliseconds_high,calls");
+  for (const Runtime& runtime : runtimes) {
+    const Config& config = runtime.config;
+    const Mean& mean = runtime.milliseconds;
+    table.addRow(config.preset, estimatorName(config), config.sampling.samples, config.neighborhood.k, mean.value,
+                 mean.interval.low, mean.interval.high, mean.count);
+  }
+  table.save(folder + "/runtime.csv");
+}
+
+}  // namespace grasp_affordances

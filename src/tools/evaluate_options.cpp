@@ -1,0 +1,225 @@
+#include "tools/evaluate_options.h"
+
+#include "grasp_affordances/parameters.h"
+#include "simulation/scene_library.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <iostream>
+#include <stdexcept>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+using Strings = std::vector<std::string>;
+
+const Strings kPaperScenes{"mugs",       "cleaning1", "kitchen1", "cleaning2", "household1",
+                           "household2", "kitchen2",  "kitchen3", "luggage",   "cleaning3"};
+const Strings kHardScenes{"far", "clutter", "distractors"};
+
+/// The command line, as given.
+struct Arguments
+{
+  Strings scenes, seeds{"101:120"}, estimators{"taubin", "pca", "normals"}, presets{"paper", "localizer"};
+  std::string labels, config_file, out = "evaluation";
+  std::optional<int> samples;
+  std::optional<double> capture_radius;
+  std::size_t runs = 1, threads = 0, pictures = 10;
+  bool runtime = false;
+};
+
+template <class Value>
+void requireDistinct(const std::string& option, std::vector<Value> values)
+{
+  std::sort(values.begin(), values.end());
+  if (std::adjacent_find(values.begin(), values.end()) != values.end()) {
+    throw std::invalid_argument(option + ": a value is given twice");
+  }
+}
+
+Strings sceneNames(const Strings& words)
+{
+  Strings names;
+  const auto append = [&](const Strings& group) { names.insert(names.end(), group.begin(), group.end()); };
+  for (const std::string& word : words) {
+    if (word == "paper" || word == "all") {
+      append(kPaperScenes);
+    }
+    if (word == "hard" || word == "all") {
+      append(kHardScenes);
+    }
+    if (word != "paper" && word != "hard" && word != "all") {
+      names.push_back(word);
+    }
+  }
+  const auto& library = sceneLibrary();
+  for (const std::string& name : names) {
+    if (std::none_of(library.begin(), library.end(), [&](const NamedScene& scene) { return scene.name == name; })) {
+      throw std::invalid_argument("--scenes: unknown scene '" + name + "' (simulate --list names them)");
+    }
+  }
+  requireDistinct("--scenes", names);
+  return names;
+}
+
+std::uint64_t parseSeed(const std::string& text)
+{
+  constexpr std::size_t kMaxDigits = 15;  // less than 2^53, the largest seed of a config
+  if (text.empty() || text.size() > kMaxDigits || text.find_first_not_of("0123456789") != std::string::npos) {
+    throw std::invalid_argument("--seeds: '" + text + "' is neither a number nor a range A:B");
+  }
+  return std::stoull(text);
+}
+
+std::vector<std::uint64_t> parseSeeds(const Strings& words)
+{
+  constexpr std::uint64_t kMaxSeeds = 100000;
+  std::vector<std::uint64_t> seeds;
+  for (const std::string& word : words) {
+    const std::size_t colon = word.find(':');
+    const std::uint64_t first = parseSeed(word.substr(0, colon));
+    const std::uint64_t last = colon == std::string::npos ? first : parseSeed(word.substr(colon + 1));
+    if (last < first || last - first >= kMaxSeeds) {
+      throw std::invalid_argument("--seeds: '" + word + "' is no range of 1 to " + std::to_string(kMaxSeeds) +
+                                  " seeds");
+    }
+    for (std::uint64_t seed = first; seed <= last; ++seed) {
+      seeds.push_back(seed);
+    }
+  }
+  requireDistinct("--seeds", seeds);
+  return seeds;
+}
+
+std::vector<Config> makeVariations(const Arguments& arguments)
+{
+  std::vector<Config> variations;
+  for (const std::string& preset : arguments.presets) {
+    Config config = presetConfig(preset);
+    if (!arguments.config_file.empty()) {
+      config = configFromYamlFile(arguments.config_file, config);
+      if (config.preset != preset) {
+        throw std::invalid_argument("--presets " + preset + " contradicts " + arguments.config_file +
+                                    ", whose preset is " + config.preset);
+      }
+    }
+    config.sampling.samples = arguments.samples.value_or(config.sampling.samples);
+    config.hand.capture_radius = arguments.capture_radius.value_or(config.hand.capture_radius);
+    for (const std::string& estimator : arguments.estimators) {
+      config.estimation.estimator = enumFromWord<Estimator>("--estimators", estimator);
+      validate(config);
+      variations.push_back(config);
+    }
+  }
+  return variations;
+}
+
+EvaluateOptions makeOptions(const Arguments& arguments)
+{
+  requireDistinct("--presets", arguments.presets);
+  requireDistinct("--estimators", arguments.estimators);
+  EvaluateOptions options;
+  options.variations = makeVariations(arguments);
+  const HandGeometry& hand = options.variations.front().hand;
+  GraspDefinition definition;
+  definition.capture_radius = hand.capture_radius;
+  definition.clearance = hand.finger_thickness;
+  const bool only_recorded = arguments.scenes.empty() && !arguments.labels.empty();
+  const Strings scenes = arguments.scenes.empty() ? Strings{"paper"} : arguments.scenes;
+  for (const std::string& scene : only_recorded ? Strings{} : sceneNames(scenes)) {
+    const bool is_paper = std::count(kPaperScenes.begin(), kPaperScenes.end(), scene) > 0;
+    for (const std::uint64_t seed : parseSeeds(arguments.seeds)) {
+      options.frames.push_back(renderedFrame(is_paper ? "paper" : "", scene, seed, definition));
+    }
+  }
+  options.labels = arguments.labels;
+  options.capture_radius = arguments.capture_radius;
+  options.runs = arguments.runs;
+  options.threads = arguments.threads;
+  options.out = arguments.out;
+  options.pictures = arguments.pictures;
+  options.runtime = arguments.runtime;
+  return options;
+}
+
+void addOptions(CLI::App& app, Arguments& arguments)
+{
+  app.add_option("--scenes", arguments.scenes,
+                 "of the library; paper: the paper's ten (default without --labels); hard: far, clutter, distractors; "
+                 "all: both")
+      ->type_name("NAME,..")
+      ->delimiter(',');
+  app.add_option("--seeds", arguments.seeds, "of scenes and noise: numbers and ranges (default 101:120)")
+      ->type_name("A:B,..")
+      ->delimiter(',');
+  app.add_option("--labels", arguments.labels, "evaluate recorded clouds, too: JSON file, with the clouds beside it")
+      ->type_name("FILE");
+  app.add_option("--runs", arguments.runs, "per frame; run r samples with the seed r (default 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--presets", arguments.presets, "default paper,localizer")->type_name("NAME,..")->delimiter(',');
+  app.add_option("--estimators", arguments.estimators, "default taubin,pca,normals")
+      ->type_name("NAME,..")
+      ->delimiter(',');
+  app.add_option("--config", arguments.config_file, "YAML file of parameters, read over each preset")
+      ->type_name("FILE");
+  app.add_option_function<int>(
+         "--samples", [&arguments](int samples) { arguments.samples = samples; }, "neighborhoods drawn per cloud")
+      ->type_name("N");
+  app.add_option_function<double>(
+         "--capture-radius", [&arguments](double radius) { arguments.capture_radius = radius; },
+         "of the hand, m; also decides what is graspable in rendered scenes")
+      ->type_name("R");
+  app.add_flag("--runtime", arguments.runtime,
+               "measure the running time, too: 1000 to 10000 samples, k nearest neighbors, on a rendered cleaning2");
+  app.add_option("--pictures", arguments.pictures,
+                 "draw at most N wrong places and N misses per scene, preset and estimator (default 10)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 100000));
+  app.add_option("--threads", arguments.threads, "frames at a time; 0: one per core; no influence on the result")
+      ->type_name("N")
+      ->check(CLI::Range(0, 256));
+  app.add_option("--out", arguments.out, "folder to write into (default evaluation)")->type_name("DIR");
+}
+
+std::string firstLine(const std::string& text)
+{
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+std::optional<EvaluateOptions> parseEvaluateOptions(int argc, const char* const* argv)
+{
+  CLI::App app(
+      "Measures precision, recall and running time on rendered scenes and on recorded clouds with labels, and writes "
+      "tables and pictures of the errors.",
+      "evaluate");
+  app.footer(
+      "Exit status: 0 done, 1 an input was unreadable or an output not writable, 2 usage, bad parameter or "
+      "config.");
+  Arguments arguments;
+  bool version = false;
+  addOptions(app, arguments);
+  app.add_flag("--version", version, "print the version");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      app.exit(error);
+      return std::nullopt;
+    }
+    throw std::invalid_argument(firstLine(error.what()) + " (--help lists the options)");
+  }
+  if (version) {
+    std::cout << "evaluate " << GRASP_AFFORDANCES_VERSION << "\n";
+    return std::nullopt;
+  }
+  return makeOptions(arguments);
+}
+
+}  // namespace grasp_affordances

@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+std::string content(const std::string& path)
+{
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// How a call of `evaluate` ended.
+struct Call
+{
+  int status;
+  std::string out, err;
+};
+
+class EvaluateTest : public testing::Test
+{
+protected:
+  EvaluateTest() { std::filesystem::create_directories(folder_); }
+  ~EvaluateTest() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return folder_ / name; }
+
+  Call evaluate(const std::string& arguments) const
+  {
+    const int status =
+        std::system(("cd " + folder_.string() + " && exec " EVALUATE " " + arguments + " > stdout 2> stderr").c_str());
+    EXPECT_TRUE(WIFEXITED(status)) << arguments << " ended by signal " << WTERMSIG(status);
+    return {WEXITSTATUS(status), content(path("stdout")), content(path("stderr"))};
+  }
+
+  void expectFailure(const std::string& arguments, int status, const std::string& reason) const
+  {
+    const Call call = evaluate(arguments);
+    EXPECT_EQ(call.status, status) << arguments;
+    EXPECT_NE(call.err.find(reason), std::string::npos) << arguments << ": " << call.err;
+    EXPECT_EQ(std::count(call.err.begin(), call.err.end(), '\n'), 1) << arguments << ": " << call.err;
+    EXPECT_EQ(call.out, "") << arguments;
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("evaluate_test_" + std::to_string(::getpid()));
+};
+
+TEST_F(EvaluateTest, UsageThatMakesNoSenseIsRefused)
+{
+  expectFailure("--scenes attic", 2, "unknown scene 'attic'");
+  expectFailure("--seeds 5:1", 2, "'5:1'");
+  expectFailure("--seeds one", 2, "'one'");
+  expectFailure("--seeds 1:3,2", 2, "twice");
+  expectFailure("--presets best", 2, "'best'");
+  expectFailure("--estimators taubing", 2, "'taubing'");
+  expectFailure("--runs 0", 2, "--runs");
+  expectFailure("--capture-radius -1", 2, "hand/capture_radius");
+  expectFailure("--config absent.yaml", 2, "absent.yaml");
+  expectFailure("--frobnicate", 2, "--frobnicate");
+  std::ofstream(path("paper.yaml")) << "preset: paper\n";
+  expectFailure("--config paper.yaml --presets localizer", 2, "contradicts");
+}
+
+TEST_F(EvaluateTest, UnreadableLabelsAndUnwritableFolderAreFailures)
+{
+  expectFailure("--labels absent.json", 1, "absent.json");
+  std::ofstream(path("file")) << "not a folder";
+  expectFailure("--scenes empty_table --seeds 1 --out file/below", 1, "file/below");
+}
+
+TEST_F(EvaluateTest, WritesTheSameTablesWithAnyNumberOfThreads)
+{
+  const std::string options = "--scenes table,empty_table --seeds 1,3 --estimators taubin --samples 1000 --runs 2 ";
+  const Call one = evaluate(options + "--out one --threads 1");
+  const Call three = evaluate(options + "--out three --threads 3");
+  ASSERT_EQ(one.status, 0) << one.err;
+  EXPECT_NE(one.out.find("| table | 2 × 2 |"), std::string::npos) << one.out;
+  EXPECT_EQ(one.out, three.out);
+  for (const std::string name : {"shells.csv", "affordances.csv", "summary.csv", "summary.json", "table.md"}) {
+    EXPECT_GT(content(path("one/" + name)).size(), 100U) << name;
+    EXPECT_EQ(content(path("one/" + name)), content(path("three/" + name))) << name;
+  }
+}
+
+}  // namespace
+}  // namespace grasp_affordances
