@@ -147,11 +147,14 @@ void LocalizerNodelet::updateSubscriptions()
     camera_info_.shutdown();
   } else if (!points_) {
     ros::NodeHandle& nh = getNodeHandle();
-    camera_info_ = nh.subscribe<sensor_msgs::CameraInfo>("camera_info", 1, [this](const Camera& message) {
-      const std::lock_guard<std::mutex> camera_lock(camera_mutex_);
-      camera_ = message;
-    });
-    points_ = nh.subscribe<sensor_msgs::PointCloud2>("points", kSubscriberQueue,
+    // Absolute names: nodelet's node handle takes the root namespace for that of the manager.
+    const std::string parent = ros::names::parentNamespace(getName());
+    camera_info_ = nh.subscribe<sensor_msgs::CameraInfo>(ros::names::append(parent, "camera_info"), 1,
+                                                         [this](const Camera& message) {
+                                                           const std::lock_guard<std::mutex> camera_lock(camera_mutex_);
+                                                           camera_ = message;
+                                                         });
+    points_ = nh.subscribe<sensor_msgs::PointCloud2>(ros::names::append(parent, "points"), kSubscriberQueue,
                                                      [this](const Points& message) { receive(message); });
   }
 }

@@ -14,6 +14,9 @@ import roslib.packages
 import rospy
 from sensor_msgs.msg import PointCloud2, PointField
 
+# Of these speaks the output of a process that did not end well, whatever its exit code.
+ABNORMAL_ENDS = ('boost', 'mutex', 'terminate', 'Assertion', 'rror:')
+
 _scenes = None
 
 
@@ -65,6 +68,11 @@ class Process:
     def output(self):
         self._output.seek(0)
         return self._output.read().decode()
+
+
+def manager():
+    """A nodelet manager of that name."""
+    return Process('nodelet', 'nodelet', 'manager', '__name:=manager')
 
 
 def publisher(file, rate=0, frame='camera_depth_optical_frame'):

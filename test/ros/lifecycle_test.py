@@ -8,21 +8,16 @@ import rospy
 import rostest
 
 from grasp_affordances.msg import LocalizationStatistics
-from helpers import Listener, Process, publisher, scene, wait_until
+from helpers import ABNORMAL_ENDS, Listener, Process, manager, publisher, scene, wait_until
 
 BAD_PARAMETERS = (('hand/capture_radius', 0.7, '[0.002, 0.5] m'),
                   ('sampling/samples', 12.5, 'an integer in [1, 1000000]'),
                   ('estimation/estimator', 'taubing', 'taubing'),
                   ('shell/min_lenght', 0.03, 'unknown name'))
-ABNORMAL_ENDS = ('boost', 'mutex', 'terminate', 'Assertion', 'rror:')
 
 
 def localizer(*arguments):
     return Process('grasp_affordances', 'localizer_node', *arguments)
-
-
-def manager():
-    return Process('nodelet', 'nodelet', 'manager', '__name:=manager')
 
 
 def loader(*options):
