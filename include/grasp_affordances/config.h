@@ -34,7 +34,7 @@ struct SamplingConfig
 {
   int samples = 4000;      ///< neighborhoods drawn per cloud (n of Algorithm 1)
   std::uint64_t seed = 1;  ///< every cloud is seeded with it afresh
-  bool screen = true;      ///< sample only where the cloud falls away on both sides, evenly over the image
+  bool screen = true;      ///< sample first where the cloud falls away on both sides, evenly over the image
 };
 
 struct NeighborhoodConfig

@@ -38,7 +38,7 @@ void visitParameters(ConfigT& c, Visitor&& visit)
   visit("sampling/seed", c.sampling.seed, Range<std::uint64_t>{0, (std::uint64_t{1} << 53) - 1}, "",
         "of the random draws, the same for every cloud");
   visit("sampling/screen", c.sampling.screen,
-        "sample only where the cloud falls away on both sides, evenly over the image");
+        "sample first where the cloud falls away on both sides, evenly over the image");
 
   visit("neighborhood/kind", c.neighborhood.kind, "all points within a sphere, or the k nearest");
   visit("neighborhood/radius", c.neighborhood.radius, Real{0.0, 0.5}, "m", "of the sphere; 0: the capture radius");

@@ -12,8 +12,9 @@ namespace grasp_affordances
 
 /// Whether a hand could reach around both sides of a pixel's surface: in one of four directions across the image, what
 /// is seen on both sides, no farther apart than the hand can span, falls away from the pixel by at least a finger's
-/// thickness, over three quarters of that thickness, or was not measured. It holds all over what a shell can enclose,
-/// and hardly anywhere on planes and inside corners; that a surface is enclosed it does not tell.
+/// thickness, over three quarters of that thickness, or was not measured; the image's border is no such side. It holds
+/// all over what a shell can enclose, and hardly anywhere on planes and inside corners; that a surface is enclosed it
+/// does not tell.
 bool fallsAwayOnBothSides(const RangeImage& image, std::size_t pixel, const HandGeometry& hand);
 
 /// Measured points that fall away on both sides. The pixels of every other row and column are tried, one after another

@@ -121,7 +121,7 @@ private:
   ShellSearchResult searchAbout(const Surroundings& surroundings, const FittedCylinder& cylinder,
                                 const HandGeometry& hand, const ShellConfig& config);
   std::optional<FittedCylinder> refit(const FittedCylinder& cylinder, const ShellSearchResult& found,
-                                      const HandGeometry& hand, double radius_step) const;
+                                      const HandGeometry& hand, double radius_step);
   void gatherPoints(const NeighborhoodSearch& cloud, const Axis& axis, double outer_radius,
                     std::vector<AxisPoint>& points);
   std::size_t sliceOf(const AxisPoint& point) const;
@@ -137,6 +137,7 @@ private:
   Slices slices_;
   Neighborhood sphere_;
   std::vector<AxisPoint> points_, hidden_points_;
+  std::vector<Eigen::Vector2d> inside_;
   std::vector<bool> unseen_;  // slices
   std::size_t steps_ = 0;
   Counts fill_, inner_, outer_;         // of the points: up to the fill, to the inner and to the outer radius

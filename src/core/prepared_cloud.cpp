@@ -75,8 +75,11 @@ PreparedCloud::PreparedCloud(const Cloud& cloud, const Config& config, ThreadTea
   } else {
     sensor = cloud.sensor_origin.cast<double>();
     search = makeTreeSearch(cloud);
-    if (config.occlusion.filter || config.shell.require_observed_gap) {
-      warning += "; without a range image occlusion and observed free space are not judged";
+    if (config.occlusion.filter || config.shell.require_observed_gap || config.sampling.screen ||
+        config.shell.continue_surfaces || config.shell.min_coverage > 0.0) {
+      warning +=
+          "; without a range image samples are drawn from all points, and occlusion, hidden surfaces, observed "
+          "free space and coverage are not judged";
     }
   }
   if (!warning.empty()) {

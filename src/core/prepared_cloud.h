@@ -34,7 +34,7 @@ struct PreparedCloud
   const Cloud& cloud;
   std::vector<std::uint32_t> measured;  // indices of the measured points
   std::optional<RangeImage> image;
-  std::vector<std::uint32_t> candidates;       // indices of the points that are worth a sample; all are, if empty
+  std::vector<std::uint32_t> candidates;       // indices of the points that are sampled first
   std::unique_ptr<NeighborhoodSearch> search;  // null where there is nothing to localize
   Cloud hidden;                                // surfaces that go on behind what the sensor saw
   std::optional<RangeImage> hidden_image;

@@ -125,16 +125,16 @@ ShellSearchResult ShellSearch::searchAbout(const Surroundings& surroundings, con
 /// surface's, up to the next whole number of steps below the capture radius: so the last shell that is tried is the
 /// largest that the hand can enclose.
 std::optional<FittedCylinder> ShellSearch::refit(const FittedCylinder& cylinder, const ShellSearchResult& found,
-                                                 const HandGeometry& hand, double radius_step) const
+                                                 const HandGeometry& hand, double radius_step)
 {
   const double middle = (found.centroid - cylinder.origin).dot(cylinder.axis);
-  std::vector<Eigen::Vector2d> inside;
+  inside_.clear();
   for (const AxisPoint& point : points_) {
     if (std::abs(point.along - middle) <= found.length / 2 && point.radial <= found.inner_radius) {
-      inside.push_back(point.across);
+      inside_.push_back(point.across);
     }
   }
-  const auto circle = fitCircleTaubin(inside);
+  const auto circle = fitCircleTaubin(inside_);
   if (!circle) {
     return std::nullopt;
   }
@@ -142,7 +142,9 @@ std::optional<FittedCylinder> ShellSearch::refit(const FittedCylinder& cylinder,
   FittedCylinder refitted = cylinder;
   refitted.origin += circle->center.x() * axis.first + circle->center.y() * axis.second;
   const double room = hand.capture_radius - circle->radius;
-  refitted.radius = room >= 0.0 ? hand.capture_radius - std::floor(room / radius_step) * radius_step : circle->radius;
+  constexpr double kRounding = 1.0 + 1e-12;  // or the search, counting the steps back, might lose the last one
+  refitted.radius =
+      room >= 0.0 ? hand.capture_radius - std::floor(room / radius_step) * radius_step * kRounding : circle->radius;
   return refitted;
 }
 

@@ -90,7 +90,6 @@ ColoredCloud crossSection(const Cloud& cloud, const std::vector<Color>& colors, 
   const double radius = 2.5 * (shell.inner_radius + shell.thickness);
   Eigen::Matrix3d rotation;  // rows: the camera's x, y and z
   rotation << shell.axis.cross(shell.normal).transpose(), -shell.normal.transpose(), shell.axis.transpose();
-  rotation.row(0) = rotation.row(1).cross(rotation.row(2));
   const Eigen::Vector3d place(0.0, 0.0, 2.0);
   std::vector<ColoredPoint> points;
   for (std::size_t i = 0; i < cloud.size(); ++i) {

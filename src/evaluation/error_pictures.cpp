@@ -28,7 +28,7 @@ const Shell& shellOf(const Evaluation& evaluation, const Error& error)
 
 std::vector<Error> wrongPlaces(const Evaluation& evaluation, std::size_t frame, std::size_t variation)
 {
-  const double distance = evaluation.variations[variation].hand.capture_radius;
+  const double distance = evaluation.frames[frame].capture_radius;
   const auto& runs = evaluation.frames[frame].runs[variation];
   std::vector<Error> places;
   for (std::size_t run = 0; run < runs.size(); ++run) {

@@ -32,6 +32,7 @@ FrameResult evaluateFrame(const EvaluationFrame& frame, const std::vector<Config
   result.group = frame.group;
   result.scene = frame.scene;
   result.seed = frame.seed;
+  result.capture_radius = labelled.capture_radius;
   for (std::size_t i = 0; i < labelled.cloud.size(); ++i) {
     result.points += labelled.cloud.measured(i) ? 1 : 0;
   }

@@ -34,6 +34,7 @@ struct FrameResult
 {
   std::string group, scene;
   std::uint64_t seed = 0;
+  double capture_radius = 0.0;          ///< m, of the hand that its labels hold for
   std::uint32_t points = 0;             ///< measured
   std::vector<Affordance> affordances;  ///< of which the frame shows a point
   std::vector<std::vector<Run>> runs;   ///< per variation

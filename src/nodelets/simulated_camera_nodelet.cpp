@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -157,13 +158,13 @@ void SimulatedCameraNodelet::onInit()
 {
   try {
     parameters_ = simulatedCameraParameters(getPrivateNodeHandle());
-  } catch (const ParameterError& error) {
+    view_ = makeScene(parameters_.scene, parameters_.seed);
+  } catch (const std::exception& error) {
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
   }
   link_frame_ = parameters_.camera + "_link";
   optical_frame_ = parameters_.camera + "_depth_optical_frame";
-  view_ = makeScene(parameters_.scene, parameters_.seed);
   if (parameters_.motion == "orbit") {
     orbit_.emplace(view_, kDegree * parameters_.amplitude_deg, parameters_.period_s);
   }

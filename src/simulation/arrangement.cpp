@@ -100,12 +100,6 @@ std::vector<Eigen::Vector3d> pointsInside(const Scene& scene, std::size_t object
   return points;
 }
 
-bool interpenetrate(const Scene& scene, std::size_t object_a, std::size_t object_b)
-{
-  return anyContained(scene, object_a, pointsInside(scene, object_b)) ||
-         anyContained(scene, object_b, pointsInside(scene, object_a));
-}
-
 void append(const Scene& from, const Eigen::Isometry3d& T_to_from, Scene& to)
 {
   const std::size_t first_part = to.parts().size();

@@ -17,9 +17,6 @@ namespace grasp_affordances
 /// None for half-spaces.
 std::vector<Eigen::Vector3d> pointsInside(const Scene& scene, std::size_t object);
 
-/// Whether two objects of a scene go through each other; contact does not count. As far as pointsInside() shows it.
-bool interpenetrate(const Scene& scene, std::size_t object_a, std::size_t object_b);
-
 /// Adds all objects of one scene to another.
 void append(const Scene& from, const Eigen::Isometry3d& T_to_from, Scene& to);
 
@@ -51,14 +48,14 @@ struct Spot
 };
 
 /// Puts objects into a scene: inside the picture and apart from one another. Scene frame: z = 0 carries the objects, y
-/// points away from the camera, and the middle of the picture shows a point above the origin. Every other arrangement
-/// is mirrored from left to right; objects are symmetric about their fronts.
+/// points away from the camera, and the middle of the picture shows a point above the origin. Half of the arrangements,
+/// by a coin, are mirrored from left to right; objects are symmetric about their fronts.
 class Arrangement
 {
 public:
   Arrangement(const Stage& stage, CounterRandom& random);
 
-  /// Keeps this distance, in m, between objects from now on.
+  /// Keeps about this distance, in m, between objects from now on: that of their pointsInside().
   void setGap(double gap) { gap_ = gap; }
 
   /// Puts an object, or several that belong together, somewhere about a spot, farther away from it where there is no

@@ -1,5 +1,6 @@
 #include "simulation/camera_orbit.h"
 
+#include "simulation/placement.h"
 #include "simulation/ray_caster.h"
 
 #include <cmath>
@@ -10,7 +11,6 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDistanceIntoTheVoid = 1.0;  // m, of the point looked at where the optical axis meets nothing
 
 double distanceLookedAt(const View& view)

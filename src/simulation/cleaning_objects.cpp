@@ -24,8 +24,11 @@ Scene randomDustPan(CounterRandom& random)
 
   const double pitch = kDegree * random.uniform(8.0, 16.0);
   const Eigen::Vector3d root(0.5 * depth, 0.0, 0.033);
-  addTaper(scene, root, root + random.uniform(0.11, 0.13) * Eigen::Vector3d(std::cos(pitch), 0.0, std::sin(pitch)),
-           random.uniform(0.011, 0.0125), random.uniform(0.013, 0.015));
+  const double end_radius = random.uniform(0.013, 0.015);
+  const double root_radius = random.uniform(0.011, 0.0125);
+  const double length = random.uniform(0.11, 0.13);
+  addTaper(scene, root, root + length * Eigen::Vector3d(std::cos(pitch), 0.0, std::sin(pitch)), root_radius,
+           end_radius);
   return scene;
 }
 
@@ -40,8 +43,10 @@ Scene randomBrush(CounterRandom& random)
   scene.add(Box{{2.0 * half_length - 0.01, width - 0.008, bristles}}, at(0.0, 0.0, 0.5 * bristles), Surface::dark);
   scene.add(Box{{2.0 * half_length, width, block}}, at(0.0, 0.0, bristles + 0.5 * block));
   const Eigen::Vector3d root(half_length - 0.005, 0.0, bristles + 0.5 * block);
-  addTaper(scene, root, root + Eigen::Vector3d(random.uniform(0.12, 0.14), 0.0, 0.012), random.uniform(0.0095, 0.0105),
-           random.uniform(0.012, 0.0145));
+  const double end_radius = random.uniform(0.012, 0.0145);
+  const double root_radius = random.uniform(0.0095, 0.0105);
+  const double length = random.uniform(0.12, 0.14);
+  addTaper(scene, root, root + Eigen::Vector3d(length, 0.0, 0.012), root_radius, end_radius);
   return scene;
 }
 
@@ -80,7 +85,9 @@ Scene randomJug(CounterRandom& random)
             Eigen::Isometry3d::Identity());
   const HandleFeet feet{
       {radius - 0.003, 0.0, 0.035}, {radius - 0.003, 0.0, shoulder_z - 0.01}, Eigen::Vector3d::UnitX()};
-  addBow(scene, feet, random.uniform(0.045, 0.05), random.uniform(0.009, 0.0115));
+  const double tube_radius = random.uniform(0.009, 0.0115);
+  const double rise = random.uniform(0.045, 0.05);
+  addBow(scene, feet, rise, tube_radius);
   return scene;
 }
 

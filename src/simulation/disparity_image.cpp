@@ -51,7 +51,7 @@ double DisparityImage::gradient(Pixel p, Pixel before, Pixel after) const
 {
   const double here = (*this)(p);
   if (!contains(before))
-    return (*this)(after)-here;
+    return contains(after) ? (*this)(after)-here : 0.0;
   if (!contains(after))
     return here - (*this)(before);
   const double rise_before = here - (*this)(before);

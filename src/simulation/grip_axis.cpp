@@ -1,5 +1,7 @@
 #include "simulation/grip_axis.h"
 
+#include "simulation/placement.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,8 +12,6 @@ namespace grasp_affordances
 {
 namespace
 {
-
-const double kPi = std::acos(-1.0);
 
 using Axes = std::vector<GripAxis>;
 constexpr auto kElliptic = GripAxis::Section::elliptic;

@@ -44,7 +44,7 @@ public:
 
   const std::vector<Grip>& grips() const { return grips_; }  ///< by label
 
-  /// Whether any point of a part has another label than 0.
+  /// Whether points of a part may have another label than 0: if not, all have 0.
   bool any(std::size_t part) const { return parts_[part].has_value(); }
 
   /// Label of a point of a part's surface: that of the nearest cell.
@@ -57,7 +57,7 @@ private:
     std::vector<std::uint32_t> labels;
   };
 
-  std::vector<std::optional<Cells>> parts_;  ///< none where every label is 0
+  std::vector<std::optional<Cells>> parts_;  ///< none for parts on whose axis, or whose chain's, nothing was found
   std::vector<Grip> grips_;
 };
 

@@ -39,7 +39,7 @@ struct GroundTruth
 ///
 /// Clearance is that of the exact geometry, all around: stricter than the paper's, whose annotator saw one side. Within
 /// a margin of a threshold a stretch is doubtful, the margin being 1 mm or the sensor's depth quantum at that range,
-/// whichever is larger; so is a slim bar without round section whose section fits into the hand.
+/// whichever is larger; so is a slim bar whose section fits into the hand but is rectangular or too flat.
 ///
 /// @param frame captured by a sensor of that model from the view
 /// @throw std::length_error for a scene with more than 254 affordances

@@ -141,8 +141,10 @@ View distractors(std::uint64_t seed)
   }
   Arrangement arrangement(stage, random);
   if (wall) {
-    for (const double x : {-0.2, 0.15})
-      arrangement.place(randomCloseBar(random), {{x, stage.wall}, {0.06, 0.0}, -90.0, 0.0, random.uniform(0.13, 0.2)});
+    for (const double x : {-0.2, 0.15}) {
+      const double height = random.uniform(0.13, 0.2);
+      arrangement.place(randomCloseBar(random), {{x, stage.wall}, {0.06, 0.0}, -90.0, 0.0, height});
+    }
   }
   std::vector<MakeObject> kinds = {randomBlockWithCloseBar,
                                    randomOpenCarton,
@@ -169,7 +171,7 @@ View distractors(std::uint64_t seed)
 std::vector<NamedScene> hardScenes()
 {
   return {
-      {"far", "up to five objects with handles and three without, 1.2 to 1.5 m away", far},
+      {"far", "up to five objects with handles and up to three without, 1.2 to 1.5 m away", far},
       {"clutter", "26 objects upright, lying and on top of one another, close together", clutter},
       {"distractors", "nothing to grasp: boxes, edges, corners, vessels, bars too close to a wall", distractors},
   };

@@ -29,8 +29,10 @@ Scene randomHairBrush(CounterRandom& random)
   scene.add(Box{{0.075, 0.042, bristles}}, at(0.0, 0.0, 0.5 * bristles), Surface::dark);
   scene.add(Ellipsoid{{0.055, 0.033, 0.012}}, at(0.0, 0.0, bristles + 0.006));
   const Eigen::Vector3d root(0.05, 0.0, bristles + 0.008);
-  addTaper(scene, root, root + Eigen::Vector3d(random.uniform(0.11, 0.13), 0.0, 0.006), random.uniform(0.0085, 0.0095),
-           random.uniform(0.011, 0.0125));
+  const double end_radius = random.uniform(0.011, 0.0125);
+  const double root_radius = random.uniform(0.0085, 0.0095);
+  const double length = random.uniform(0.11, 0.13);
+  addTaper(scene, root, root + Eigen::Vector3d(length, 0.0, 0.006), root_radius, end_radius);
   return scene;
 }
 
@@ -41,8 +43,9 @@ Scene randomHammer(CounterRandom& random)
   Scene scene;
   scene.beginObject("hammer");
   addBar(scene, {-0.055, 0.0, head}, {0.055, 0.0, head}, head, Surface::dark);
-  addTaper(scene, {0.0, 0.0, head}, {0.0, 0.0, head + length}, random.uniform(0.011, 0.0125),
-           random.uniform(0.014, 0.0165));
+  const double end_radius = random.uniform(0.014, 0.0165);
+  const double root_radius = random.uniform(0.011, 0.0125);
+  addTaper(scene, {0.0, 0.0, head}, {0.0, 0.0, head + length}, root_radius, end_radius);
   return scene;
 }
 
@@ -103,14 +106,16 @@ Scene randomCarton(CounterRandom& random)
 
 Scene randomOpenCarton(CounterRandom& random)
 {
-  const Eigen::Vector3d size(random.uniform(0.16, 0.22), random.uniform(0.2, 0.28), random.uniform(0.1, 0.14));
+  const double height = random.uniform(0.1, 0.14);
+  const double width = random.uniform(0.2, 0.28);
+  const double depth = random.uniform(0.16, 0.22);
   constexpr double wall = 0.004;
   Scene scene;
   scene.beginObject("open box");
-  scene.add(Box{{size.x(), size.y(), wall}}, at(0.0, 0.0, 0.5 * wall));
+  scene.add(Box{{depth, width, wall}}, at(0.0, 0.0, 0.5 * wall));
   for (const double side : {-0.5, 0.5}) {
-    scene.add(Box{{wall, size.y(), size.z()}}, at(side * (size.x() - wall), 0.0, 0.5 * size.z()));
-    scene.add(Box{{size.x(), wall, size.z()}}, at(0.0, side * (size.y() - wall), 0.5 * size.z()));
+    scene.add(Box{{wall, width, height}}, at(side * (depth - wall), 0.0, 0.5 * height));
+    scene.add(Box{{depth, wall, height}}, at(0.0, side * (width - wall), 0.5 * height));
   }
   return scene;
 }
@@ -173,40 +178,51 @@ Scene randomBananaOnBlock(CounterRandom& random)
 
 Scene randomSuitcase(CounterRandom& random)
 {
-  const Eigen::Vector3d size(random.uniform(0.12, 0.15), random.uniform(0.34, 0.4), random.uniform(0.24, 0.28));
+  const double height = random.uniform(0.24, 0.28);
+  const double width = random.uniform(0.34, 0.4);
+  const double depth = random.uniform(0.12, 0.15);
   const double half_grip = 0.5 * random.uniform(0.11, 0.14);
   Scene scene;
   scene.beginObject("suitcase");
-  scene.add(Box{size}, at(0.0, 0.0, 0.5 * size.z()), Surface::dark);
-  const HandleFeet feet{
-      {0.0, -half_grip, size.z() - 0.002}, {0.0, half_grip, size.z() - 0.002}, Eigen::Vector3d::UnitZ()};
-  addStaple(scene, feet, random.uniform(0.042, 0.05), 0.018, random.uniform(0.01, 0.0125), Surface::dark);
+  scene.add(Box{{depth, width, height}}, at(0.0, 0.0, 0.5 * height), Surface::dark);
+  const HandleFeet feet{{0.0, -half_grip, height - 0.002}, {0.0, half_grip, height - 0.002}, Eigen::Vector3d::UnitZ()};
+  const double tube_radius = random.uniform(0.01, 0.0125);
+  const double rise = random.uniform(0.042, 0.05);
+  addStaple(scene, feet, rise, 0.018, tube_radius, Surface::dark);
   return scene;
 }
 
 Scene randomLyingSuitcase(CounterRandom& random)
 {
-  const Eigen::Vector3d size(random.uniform(0.25, 0.29), random.uniform(0.36, 0.42), random.uniform(0.13, 0.16));
+  const double height = random.uniform(0.13, 0.16);
+  const double width = random.uniform(0.36, 0.42);
+  const double depth = random.uniform(0.25, 0.29);
   const double half_grip = 0.5 * random.uniform(0.11, 0.14);
-  const double x = 0.5 * size.x() - 0.002;
+  const double x = 0.5 * depth - 0.002;
   Scene scene;
   scene.beginObject("lying suitcase");
-  scene.add(Box{size}, at(0.0, 0.0, 0.5 * size.z()), Surface::dark);
-  const HandleFeet feet{{x, -half_grip, 0.5 * size.z()}, {x, half_grip, 0.5 * size.z()}, Eigen::Vector3d::UnitX()};
-  addStaple(scene, feet, random.uniform(0.042, 0.05), 0.018, random.uniform(0.01, 0.0125));
+  scene.add(Box{{depth, width, height}}, at(0.0, 0.0, 0.5 * height), Surface::dark);
+  const HandleFeet feet{{x, -half_grip, 0.5 * height}, {x, half_grip, 0.5 * height}, Eigen::Vector3d::UnitX()};
+  const double tube_radius = random.uniform(0.01, 0.0125);
+  const double rise = random.uniform(0.042, 0.05);
+  addStaple(scene, feet, rise, 0.018, tube_radius);
   return scene;
 }
 
 Scene randomBackpack(CounterRandom& random)
 {
-  const Eigen::Vector3d size(random.uniform(0.12, 0.14), random.uniform(0.22, 0.26), random.uniform(0.27, 0.32));
+  const double height = random.uniform(0.27, 0.32);
+  const double width = random.uniform(0.22, 0.26);
+  const double depth = random.uniform(0.12, 0.14);
   Scene scene;
   scene.beginObject("backpack");
-  scene.add(Box{size}, at(0.0, 0.0, 0.5 * size.z()));
-  const double pocket = 0.4 * size.z();
-  scene.add(Box{{0.04, 0.75 * size.y(), pocket}}, at(0.5 * size.x() + 0.02, 0.0, 0.5 * pocket + 0.02));
-  const HandleFeet feet{{0.0, -0.045, size.z() - 0.003}, {0.0, 0.045, size.z() - 0.003}, Eigen::Vector3d::UnitZ()};
-  addBow(scene, feet, random.uniform(0.043, 0.05), random.uniform(0.007, 0.009));
+  scene.add(Box{{depth, width, height}}, at(0.0, 0.0, 0.5 * height));
+  const double pocket = 0.4 * height;
+  scene.add(Box{{0.04, 0.75 * width, pocket}}, at(0.5 * depth + 0.02, 0.0, 0.5 * pocket + 0.02));
+  const HandleFeet feet{{0.0, -0.045, height - 0.003}, {0.0, 0.045, height - 0.003}, Eigen::Vector3d::UnitZ()};
+  const double tube_radius = random.uniform(0.007, 0.009);
+  const double rise = random.uniform(0.043, 0.05);
+  addBow(scene, feet, rise, tube_radius);
   return scene;
 }
 
@@ -221,14 +237,16 @@ Scene randomLongBox(CounterRandom& random)
 
 Scene randomShelf(CounterRandom& random)
 {
-  const Eigen::Vector3d size(random.uniform(0.13, 0.16), random.uniform(0.28, 0.34), random.uniform(0.14, 0.18));
+  const double height = random.uniform(0.14, 0.18);
+  const double width = random.uniform(0.28, 0.34);
+  const double depth = random.uniform(0.13, 0.16);
   constexpr double board = 0.018;
   Scene scene;
   scene.beginObject("shelf");
   for (const double side : {-0.5, 0.5}) {
-    scene.add(Box{{size.x(), board, size.z()}}, at(0.0, side * (size.y() - board), 0.5 * size.z()));
+    scene.add(Box{{depth, board, height}}, at(0.0, side * (width - board), 0.5 * height));
   }
-  scene.add(Box{{size.x() + 0.02, size.y() + 0.02, board}}, at(0.0, 0.0, size.z() + 0.5 * board));
+  scene.add(Box{{depth + 0.02, width + 0.02, board}}, at(0.0, 0.0, height + 0.5 * board));
   return scene;
 }
 
@@ -251,7 +269,9 @@ Scene randomCloseBar(CounterRandom& random)
 {
   Scene scene;
   scene.beginObject("close bar");
-  addCloseBar(scene, 0.0, 0.0, random.uniform(0.06, 0.09), random.uniform(0.003, 0.0045));
+  const double clearance = random.uniform(0.003, 0.0045);
+  const double half_length = random.uniform(0.06, 0.09);
+  addCloseBar(scene, 0.0, 0.0, half_length, clearance);
   return scene;
 }
 

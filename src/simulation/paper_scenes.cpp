@@ -187,8 +187,7 @@ std::vector<NamedScene> paperScenes()
       {"kitchen1", "glass French press, lotion bottle too thick to grasp, horizontal box, mug and bottle", kitchen1},
       {"cleaning2",
        "front example of the paper, seven affordances for a capture radius of 2.9 cm: apple, end of a banana, neck of "
-       "a "
-       "squirt bottle, handles of dust pan, jug and broom, cap of the jug",
+       "a squirt bottle, handles of dust pan, jug and broom, cap of the jug",
        cleaning2},
       {"household1", "lamp, hammer, hair brush, flashlight, book and tape", household1},
       {"household2", "cordless phone, flashlight, hair brush, mug, cup and book", household2},

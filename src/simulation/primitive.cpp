@@ -1,5 +1,7 @@
 #include "simulation/primitive.h"
 
+#include "simulation/placement.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -8,8 +10,6 @@ namespace grasp_affordances
 {
 namespace
 {
-
-const double kPi = std::acos(-1.0);
 
 bool positive(double length)
 {

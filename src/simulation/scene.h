@@ -41,8 +41,9 @@ public:
   std::size_t add(const Primitive& shape, const Eigen::Isometry3d& T_scene_shape, Surface surface = Surface::diffuse);
 
   /// Declares that parts follow one another, in this order, along one axis that a hand may close around anywhere: the
-  /// arc and the straights of a handle, or shoulder, neck and cap of a bottle. A part belongs to one chain at most;
-  /// those in none stand for themselves. @throw std::invalid_argument for an unknown or already joined part.
+  /// arc and the straights of a handle, or shoulder, neck and cap of a bottle. None may reach into a later one. A part
+  /// belongs to one chain at most; those in none stand for themselves. @throw std::invalid_argument for an unknown or
+  /// already joined part.
   void join(const std::vector<std::size_t>& parts);
 
   const std::vector<Part>& parts() const { return parts_; }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace grasp_affordances
@@ -20,6 +21,7 @@ namespace
 {
 
 constexpr float kMetresPerUnit = 0.001F;  ///< of a depth image
+constexpr double kDeepest = 65.0;         ///< m; 16 bits hold 65.5
 constexpr int kLargestJitter = 2;         ///< px; promised in the header
 
 Frame emptyFrame(const XtionModel& model)
@@ -150,6 +152,16 @@ Frame exactFrame(const XtionModel& model, const Scene& scene, const SurfaceImage
 double XtionModel::depthQuantum(double depth_m) const
 {
   return depth_m * depth_m / (intrinsics.fx * baseline) * disparity_step;
+}
+
+Xtion::Xtion(const XtionModel& model) : model_(model)
+{
+  if (model.width < 1 || model.height < 1 || model.window_width < 1 || model.window_height < 1)
+    throw std::invalid_argument("the sensor's picture and matching window need at least one pixel");
+  if (!(model.disparity_step > 0.0))
+    throw std::invalid_argument("the sensor's disparity step must be positive");
+  if (!(0.0 < model.min_depth && model.min_depth < model.max_depth && model.max_depth <= kDeepest))
+    throw std::invalid_argument("the sensor's range must be within 0 and 65 m");
 }
 
 Frame Xtion::capture(const Scene& scene, const Eigen::Isometry3d& T_scene_camera, std::uint64_t seed) const

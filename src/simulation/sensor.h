@@ -31,7 +31,7 @@ struct XtionModel
   double min_depth = 0.5;    ///< m; nearer surfaces are not measured
   double max_depth = 5.0;    ///< m, at most 65; nor are farther ones
   bool exact = false;  ///< report the true depth of every surface but absorbing ones: no noise, no steps, no shadow of
-                       ///< the projector, nothing missing
+                       ///< the projector, nothing missing within the range
 
   /// One disparity step at that depth, in metres.
   double depthQuantum(double depth_m) const;
@@ -51,7 +51,9 @@ struct Frame
 class Xtion
 {
 public:
-  explicit Xtion(const XtionModel& model = XtionModel()) : model_(model) {}
+  /// @throw std::invalid_argument unless picture and window have pixels, the disparity step is positive, and
+  /// 0 < min_depth < max_depth <= 65 m.
+  explicit Xtion(const XtionModel& model = XtionModel());
 
   /// The frame depends on its arguments alone, whatever the number of threads.
   Frame capture(const Scene& scene, const Eigen::Isometry3d& T_scene_camera, std::uint64_t seed) const;

@@ -99,7 +99,9 @@ Scene randomFrenchPress(CounterRandom& random)
   scene.add(Sphere{0.01}, at(0.0, 0.0, height + 0.028), Surface::dark);
 
   const HandleFeet feet{{radius, 0.0, 0.03}, {radius, 0.0, height - 0.02}, Eigen::Vector3d::UnitX()};
-  addStaple(scene, feet, random.uniform(0.04, 0.045), 0.02, random.uniform(0.008, 0.010), Surface::dark);
+  const double tube_radius = random.uniform(0.008, 0.010);
+  const double rise = random.uniform(0.04, 0.045);
+  addStaple(scene, feet, rise, 0.02, tube_radius, Surface::dark);
   return scene;
 }
 
@@ -122,7 +124,9 @@ Scene randomKettle(CounterRandom& random)
             Eigen::Isometry3d::Identity(), Surface::shiny);
   addTaper(scene, {0.055, 0.0, 0.05}, {radius + 0.022, 0.0, 0.095}, 0.024, 0.016, Surface::shiny);
   const HandleFeet feet{{-0.066, 0.0, lid_z - 0.022}, {0.066, 0.0, lid_z - 0.022}, Eigen::Vector3d::UnitZ()};
-  addBow(scene, feet, random.uniform(0.11, 0.125), random.uniform(0.009, 0.0115));
+  const double tube_radius = random.uniform(0.009, 0.0115);
+  const double rise = random.uniform(0.11, 0.125);
+  addBow(scene, feet, rise, tube_radius);
   return scene;
 }
 
@@ -149,17 +153,20 @@ Scene randomPot(CounterRandom& random)
 {
   const double radius = random.uniform(0.08, 0.095);
   const double height = random.uniform(0.08, 0.10);
-  return stemmedVessel("pot", {radius, radius, height, 0.004}, height - 0.02, kDegree * random.uniform(3.0, 10.0),
-                       random.uniform(0.14, 0.17), random.uniform(0.0115, 0.0135));
+  const double handle_radius = random.uniform(0.0115, 0.0135);
+  const double length = random.uniform(0.14, 0.17);
+  const double pitch = kDegree * random.uniform(3.0, 10.0);
+  return stemmedVessel("pot", {radius, radius, height, 0.004}, height - 0.02, pitch, length, handle_radius);
 }
 
 Scene randomPan(CounterRandom& random)
 {
   const double radius = random.uniform(0.095, 0.115);
   const double height = random.uniform(0.045, 0.055);
-  return stemmedVessel("pan", {radius, radius + 0.02, height, 0.004}, height - 0.016,
-                       kDegree * random.uniform(12.0, 20.0), random.uniform(0.16, 0.19),
-                       random.uniform(0.0115, 0.0135));
+  const double handle_radius = random.uniform(0.0115, 0.0135);
+  const double length = random.uniform(0.16, 0.19);
+  const double pitch = kDegree * random.uniform(12.0, 20.0);
+  return stemmedVessel("pan", {radius, radius + 0.02, height, 0.004}, height - 0.016, pitch, length, handle_radius);
 }
 
 Scene randomRollingPin(CounterRandom& random)

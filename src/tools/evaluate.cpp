@@ -6,9 +6,11 @@
 #include "tools/evaluate_options.h"
 #include "tools/progress.h"
 
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -67,6 +69,7 @@ void run(const EvaluateOptions& options)
     appendRecordings(options, frames);
   }
   std::filesystem::create_directories(options.out);
+  std::filesystem::remove(options.out + "/runtime.csv");  // of an earlier call, which plots would show as measured now
   Evaluation evaluation{options.variations, options.runs, {}};
   {
     Progress progress("frames", frames.size());

@@ -124,7 +124,13 @@ int main(int argc, char** argv)
     return 0;
   }
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // failures are reported by written()
-  const ga::View view = ga::makeScene(scene, seed);
+  ga::View view;
+  try {
+    view = ga::makeScene(scene, seed);
+  } catch (const std::exception& error) {  // not every seed leaves room for everything
+    std::cerr << "simulate: " << scene << ", seed " << seed << ": " << error.what() << '\n';
+    return 1;
+  }
   const ga::XtionModel model;
   const ga::Frame frame = ga::Xtion(model).capture(view.scene, view.T_scene_camera, seed);
   const ga::GroundTruth truth = ga::groundTruth(view, frame, model, definition);

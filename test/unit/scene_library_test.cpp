@@ -138,6 +138,24 @@ const std::map<std::string, std::multiset<std::string>>& objectsOfThePapersScene
   return objects;
 }
 
+/// Whether an object of a scene has points inside another one.
+bool reachesInto(const Scene& scene, std::size_t object, std::size_t other)
+{
+  const std::vector<Eigen::Vector3d> points = pointsInside(scene, object);
+  return std::any_of(scene.parts().begin(), scene.parts().end(), [&](const Part& part) {
+    const Eigen::Isometry3d T_shape_scene = part.T_scene_shape.inverse();
+    return part.object == other && std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+             return contains(part.shape, T_shape_scene * point);
+           });
+  });
+}
+
+/// Whether two objects of a scene go through each other; contact does not count. As far as pointsInside() shows it.
+bool interpenetrate(const Scene& scene, std::size_t object_a, std::size_t object_b)
+{
+  return reachesInto(scene, object_a, object_b) || reachesInto(scene, object_b, object_a);
+}
+
 /// Every scene that is made of arranged objects.
 class ArrangedScene : public testing::TestWithParam<const char*>
 {

@@ -19,6 +19,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -473,6 +474,27 @@ TEST(Xtion, DepthComesInMillimetresFromWholeDisparitySteps)
                 focalBaseline(model) / (focalBaseline(model) / depth - model.disparity_step) - depth,
                 0.02 * model.depthQuantum(depth));
   }
+}
+
+TEST(Xtion, RefusesAModelThatMeasuresNothing)
+{
+  const auto constructionWith = [](auto XtionModel::*member, auto value) {
+    XtionModel model;
+    model.*member = value;
+    return [model] { Xtion sensor(model); };
+  };
+  for (const auto size :
+       {&XtionModel::width, &XtionModel::height, &XtionModel::window_width, &XtionModel::window_height}) {
+    EXPECT_THROW(constructionWith(size, 0)(), std::invalid_argument);
+    EXPECT_NO_THROW(constructionWith(size, 1)());
+  }
+  for (const double step : {0.0, -0.125, std::nan("")})
+    EXPECT_THROW(constructionWith(&XtionModel::disparity_step, step)(), std::invalid_argument);
+  for (const double depth : {0.0, XtionModel().max_depth, std::nan("")})
+    EXPECT_THROW(constructionWith(&XtionModel::min_depth, depth)(), std::invalid_argument);
+  for (const double depth : {XtionModel().min_depth, 65.1, std::nan("")})
+    EXPECT_THROW(constructionWith(&XtionModel::max_depth, depth)(), std::invalid_argument);
+  EXPECT_NO_THROW(constructionWith(&XtionModel::max_depth, 65.0)());
 }
 
 TEST(Xtion, MeasuresOnlyWithinItsRange)

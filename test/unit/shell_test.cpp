@@ -158,6 +158,31 @@ TEST(ShellSearch, RecentersOnTheWholeSurface)
   EXPECT_NEAR(recentered.inner_radius, kRadius, 0.0015);
 }
 
+/// Some points stand off from a bar so far that only the largest shell encloses them.
+TEST(ShellSearch, TriesTheLargestShellThatTheHandCanEncloseAfterRecentering)
+{
+  for (const double capture_radius : {0.026, 0.029, 0.035, 0.045, 0.048}) {
+    for (int steps = 1; steps <= 6; ++steps) {
+      const HandGeometry hand{capture_radius, kHand.finger_thickness};
+      const double radius = capture_radius - 0.0005 - 0.001 * steps;
+      Points points = bar(radius, 0.06);
+      for (int i = 0; i < 30; ++i) {
+        points.emplace_back(0.0, -(capture_radius - 0.0005), 0.001 * (i - 15));
+      }
+      const Cloud cloud = cloudOf(points);
+      const auto search = makeTreeSearch(cloud);
+      ShellConfig config = localizerShell();
+      config.min_fill = 0.0;
+      // Without rounding trouble of its own: the first search ends at the capture radius exactly.
+      const FittedCylinder cylinder{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), capture_radius};
+      const auto found = ShellSearch().search({*search, nullptr, nullptr, kSpacing}, cylinder, hand, config);
+      ASSERT_EQ(found.status, ShellSearchResult::found) << capture_radius << ", " << steps;
+      EXPECT_NEAR(found.inner_radius, capture_radius, 1e-9);
+      EXPECT_LE(found.inner_radius, capture_radius);
+    }
+  }
+}
+
 /// A wall that was not measured but is taken to go on behind the bar counts against the gap, not as points in it.
 TEST(ShellSearch, HiddenSurfacesBlockTheGap)
 {

@@ -1,0 +1,84 @@
+// A small version of what `evaluate` measures, so that a loss is noticed: seeds that thresholds were not chosen on.
+
+#include "evaluation/evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace grasp_affordances::test
+{
+namespace
+{
+
+struct Score
+{
+  int right = 0, wrong = 0;
+  int found = 0, affordances = 0;  // of those that show enough points
+  int frames = 0;
+};
+
+Score score(const std::vector<std::string>& scenes, const char* preset, std::size_t visible_points,
+            double most_occluded)
+{
+  std::vector<EvaluationFrame> frames;
+  for (const std::string& scene : scenes) {
+    for (std::uint64_t seed = 201; seed <= 203; ++seed) {
+      frames.push_back(renderedFrame("", scene, seed, GraspDefinition()));
+    }
+  }
+  Score result;
+  for (const FrameResult& frame : evaluate(frames, {presetConfig(preset)}, 1, 0, [] {})) {
+    const Run& run = frame.runs.front().front();
+    ++result.frames;
+    for (const JudgedShell& judged : run.shells) {
+      result.right += judged.verdict.kind == Verdict::right ? 1 : 0;
+      result.wrong += judged.verdict.kind == Verdict::wrong ? 1 : 0;
+    }
+    for (const Affordance& affordance : frame.affordances) {
+      if (affordance.visible_points >= visible_points && affordance.occluded_share <= most_occluded) {
+        ++result.affordances;
+        result.found += finds(run, affordance.label) ? 1 : 0;
+      }
+    }
+  }
+  return result;
+}
+
+const std::vector<std::string> kPaperScenes{"mugs",       "cleaning1", "kitchen1", "cleaning2", "household1",
+                                            "household2", "kitchen2",  "kitchen3", "luggage",   "cleaning3"};
+
+TEST(DetectionQuality, LocalizerOnThePapersScenes)
+{
+  const Score result = score(kPaperScenes, "localizer", 200, 0.5);
+  EXPECT_GE(result.right, 0.98 * (result.right + result.wrong)) << result.right << " right, " << result.wrong;
+  EXPECT_GE(result.found, 0.97 * result.affordances) << result.found << " of " << result.affordances;
+  EXPECT_GT(result.affordances, 80);
+}
+
+TEST(DetectionQuality, LocalizerFarAwayAndInClutter)
+{
+  for (const char* scene : {"far", "clutter"}) {
+    const Score result = score({scene}, "localizer", 200, 0.5);
+    EXPECT_GE(result.right, 0.95 * (result.right + result.wrong)) << scene << ": " << result.wrong << " wrong";
+    EXPECT_GE(result.found, 0.9 * result.affordances) << scene << ": " << result.found << " of " << result.affordances;
+  }
+}
+
+TEST(DetectionQuality, LocalizerWhereNothingCanBeGrasped)
+{
+  const Score result = score({"distractors"}, "localizer", 1, 1.0);
+  EXPECT_EQ(result.affordances, 0);
+  EXPECT_LE(result.wrong, 2 * result.frames);
+}
+
+TEST(DetectionQuality, PaperOnThePapersScenes)
+{
+  const Score result = score(kPaperScenes, "paper", 800, 1.0);
+  EXPECT_GE(result.right, 0.9 * (result.right + result.wrong)) << result.right << " right, " << result.wrong;
+  EXPECT_GE(result.found, 0.9 * result.affordances) << result.found << " of " << result.affordances;
+}
+
+}  // namespace
+}  // namespace grasp_affordances::test
