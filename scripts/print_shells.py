@@ -11,6 +11,8 @@ import rospy
 from grasp_affordances.msg import CylindricalShellArray
 from sensor_msgs.msg import PointCloud2
 
+MOST_ROWS = 20
+
 
 def receive(shells_topic, points_topic):
     """The first array and cloud with one stamp."""
@@ -33,10 +35,12 @@ def main():
 
     print('%d cylindrical shells in frame %s' % (len(message.shells), message.header.frame_id))
     print('%26s  %21s  %10s  %10s' % ('centroid [m]', 'axis', 'radius [m]', 'length [m]'))
-    for shell in message.shells:
+    for shell in message.shells[:MOST_ROWS]:
         c, a = shell.centroid, shell.axis
         print('%8.3f %8.3f %8.3f  %6.2f %6.2f %6.2f  %10.3f  %10.3f'
               % (c.x, c.y, c.z, a.x, a.y, a.z, shell.inner_radius, shell.length))
+    if len(message.shells) > MOST_ROWS:
+        print('... and %d more' % (len(message.shells) - MOST_ROWS))
     return 0 if message.shells else 1
 
 

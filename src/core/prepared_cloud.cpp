@@ -78,8 +78,8 @@ PreparedCloud::PreparedCloud(const Cloud& cloud, const Config& config, ThreadTea
     if (config.occlusion.filter || config.shell.require_observed_gap || config.sampling.screen ||
         config.shell.continue_surfaces || config.shell.min_coverage > 0.0) {
       warning +=
-          "; without a range image samples are drawn from all points, and occlusion, hidden surfaces, observed "
-          "free space and coverage are not judged";
+          "; without a range image occlusion and observed free space are not judged, nor is coverage; no surfaces "
+          "are continued, and samples are drawn from all points";
     }
   }
   if (!warning.empty()) {

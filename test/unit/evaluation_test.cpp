@@ -292,6 +292,7 @@ TEST(Summary, GroupsOfSeveralScenesArePooled)
 TEST(ErrorPictures, ShellsAtOnePlaceAreOneErrorAndTheWorstComeFirst)
 {
   Evaluation evaluation = makeEvaluation();
+  evaluation.frames[0].capture_radius = 0.026;
   auto& shells = evaluation.frames[0].runs[0][1].shells;
   shells = {judged(Verdict::wrong, 0, 0.5), judged(Verdict::wrong, 0, 0.8), judged(Verdict::wrong, 0, 0.81)};
   std::vector<Error> errors = worstErrors(evaluation, 1);

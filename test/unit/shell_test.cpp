@@ -166,9 +166,8 @@ TEST(ShellSearch, TriesTheLargestShellThatTheHandCanEncloseAfterRecentering)
       const HandGeometry hand{capture_radius, kHand.finger_thickness};
       const double radius = capture_radius - 0.0005 - 0.001 * steps;
       Points points = bar(radius, 0.06);
-      for (int i = 0; i < 30; ++i) {
-        points.emplace_back(0.0, -(capture_radius - 0.0005), 0.001 * (i - 15));
-      }
+      Random random(4);
+      points = points + cylinderPoints(capture_radius - 0.0005, M_PI, 0.06, 120, random);
       const Cloud cloud = cloudOf(points);
       const auto search = makeTreeSearch(cloud);
       ShellConfig config = localizerShell();
