@@ -50,7 +50,7 @@ struct ShellSearchResult
 };
 
 /// What a shell is searched in.
-struct Surroundings
+struct ShellSurroundings
 {
   const NeighborhoodSearch& cloud;
   const NeighborhoodSearch* hidden =
@@ -76,8 +76,8 @@ struct Surroundings
 class ShellSearch
 {
 public:
-  ShellSearchResult search(const Surroundings& surroundings, const FittedCylinder& cylinder, const HandGeometry& hand,
-                           const ShellConfig& config);
+  ShellSearchResult search(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
+                           const HandGeometry& hand, const ShellConfig& config);
 
 private:
   struct AxisPoint
@@ -118,7 +118,7 @@ private:
   };
 
   static Slices makeSlices(const ShellConfig& config, double spacing);
-  ShellSearchResult searchAbout(const Surroundings& surroundings, const FittedCylinder& cylinder,
+  ShellSearchResult searchAbout(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
                                 const HandGeometry& hand, const ShellConfig& config);
   std::optional<FittedCylinder> refit(const FittedCylinder& cylinder, const ShellSearchResult& found,
                                       const HandGeometry& hand, double radius_step);

@@ -202,9 +202,9 @@ std::optional<CylinderEstimate> SampleKernel::fitCylinder(const PreparedCloud& p
 Outcome SampleKernel::fitShell(const PreparedCloud& prepared, const Config& config, const FittedCylinder& cylinder,
                                Shell& shell)
 {
-  const Surroundings surroundings{*prepared.search, prepared.hidden_search.get(),
-                                  prepared.image ? &*prepared.image : nullptr,
-                                  prepared.spacing(neighborhood_.center.cast<double>())};
+  const ShellSurroundings surroundings{*prepared.search, prepared.hidden_search.get(),
+                                       prepared.image ? &*prepared.image : nullptr,
+                                       prepared.spacing(neighborhood_.center.cast<double>())};
   const ShellSearchResult found = shell_search_.search(surroundings, cylinder, config.hand, config.shell);
   if (found.status != ShellSearchResult::found) {
     return found.status == ShellSearchResult::too_short ? Outcome::too_short : Outcome::no_shell;

@@ -54,7 +54,7 @@ PointThresholds pointThresholds(const ShellConfig& config, double spacing)
   return thresholds;
 }
 
-ShellSearchResult ShellSearch::search(const Surroundings& surroundings, const FittedCylinder& cylinder,
+ShellSearchResult ShellSearch::search(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
                                       const HandGeometry& hand, const ShellConfig& config)
 {
   const ShellSearchResult found = searchAbout(surroundings, cylinder, hand, config);
@@ -65,7 +65,7 @@ ShellSearchResult ShellSearch::search(const Surroundings& surroundings, const Fi
   return refitted ? searchAbout(surroundings, *refitted, hand, config) : found;
 }
 
-ShellSearchResult ShellSearch::searchAbout(const Surroundings& surroundings, const FittedCylinder& cylinder,
+ShellSearchResult ShellSearch::searchAbout(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
                                            const HandGeometry& hand, const ShellConfig& config)
 {
   ShellSearchResult result;

@@ -1,5 +1,7 @@
 #include "simulation/surroundings.h"
 
+#include "simulation/placement.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +20,7 @@ std::array<Eigen::Vector2d, kDirections> directionsAround()
 {
   std::array<Eigen::Vector2d, kDirections> directions;
   for (std::size_t i = 0; i < kDirections; ++i) {
-    const double angle = 2.0 * std::acos(-1.0) * static_cast<double>(i) / kDirections;
+    const double angle = 2.0 * kPi * static_cast<double>(i) / kDirections;
     directions[i] = {std::cos(angle), std::sin(angle)};
   }
   return directions;

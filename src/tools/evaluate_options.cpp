@@ -1,6 +1,8 @@
 #include "tools/evaluate_options.h"
 
 #include "grasp_affordances/parameters.h"
+#include "simulation/hard_scenes.h"
+#include "simulation/paper_scenes.h"
 #include "simulation/scene_library.h"
 
 #include <CLI/CLI.hpp>
@@ -16,10 +18,6 @@ namespace
 {
 
 using Strings = std::vector<std::string>;
-
-const Strings kPaperScenes{"mugs",       "cleaning1", "kitchen1", "cleaning2", "household1",
-                           "household2", "kitchen2",  "kitchen3", "luggage",   "cleaning3"};
-const Strings kHardScenes{"far", "clutter", "distractors"};
 
 /// The command line, as given.
 struct Arguments
@@ -44,13 +42,17 @@ void requireDistinct(const std::string& option, std::vector<Value> values)
 Strings sceneNames(const Strings& words)
 {
   Strings names;
-  const auto append = [&](const Strings& group) { names.insert(names.end(), group.begin(), group.end()); };
+  const auto append = [&](const std::vector<NamedScene>& group) {
+    for (const NamedScene& scene : group) {
+      names.push_back(scene.name);
+    }
+  };
   for (const std::string& word : words) {
     if (word == "paper" || word == "all") {
-      append(kPaperScenes);
+      append(paperScenes());
     }
     if (word == "hard" || word == "all") {
-      append(kHardScenes);
+      append(hardScenes());
     }
     if (word != "paper" && word != "hard" && word != "all") {
       names.push_back(word);
@@ -130,8 +132,10 @@ EvaluateOptions makeOptions(const Arguments& arguments)
   definition.clearance = hand.finger_thickness;
   const bool only_recorded = arguments.scenes.empty() && !arguments.labels.empty();
   const Strings scenes = arguments.scenes.empty() ? Strings{"paper"} : arguments.scenes;
+  const std::vector<NamedScene> paper = paperScenes();
   for (const std::string& scene : only_recorded ? Strings{} : sceneNames(scenes)) {
-    const bool is_paper = std::count(kPaperScenes.begin(), kPaperScenes.end(), scene) > 0;
+    const bool is_paper =
+        std::any_of(paper.begin(), paper.end(), [&](const NamedScene& named) { return named.name == scene; });
     for (const std::uint64_t seed : parseSeeds(arguments.seeds)) {
       options.frames.push_back(renderedFrame(is_paper ? "paper" : "", scene, seed, definition));
     }

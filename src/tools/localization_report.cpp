@@ -1,6 +1,6 @@
 #include "tools/localization_report.h"
 
-#include <nlohmann/json.hpp>
+#include "tools/json.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -10,17 +10,6 @@ namespace grasp_affordances
 {
 namespace
 {
-
-#if NLOHMANN_JSON_VERSION_MAJOR > 3 || NLOHMANN_JSON_VERSION_MINOR >= 9
-using Json = nlohmann::ordered_json;
-#else
-using Json = nlohmann::json;  // sorts the keys, which means the same
-#endif
-
-Json vectorJson(const Eigen::Vector3d& vector)
-{
-  return {vector.x(), vector.y(), vector.z()};
-}
 
 Json countsJson(const Localization& localization)
 {

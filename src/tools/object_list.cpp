@@ -1,6 +1,6 @@
 #include "tools/object_list.h"
 
-#include <nlohmann/json.hpp>
+#include "tools/json.h"
 
 #include <iomanip>
 #include <sstream>
@@ -9,17 +9,6 @@ namespace grasp_affordances
 {
 namespace
 {
-
-#if NLOHMANN_JSON_VERSION_MAJOR > 3 || NLOHMANN_JSON_VERSION_MINOR >= 9
-using Json = nlohmann::ordered_json;
-#else
-using Json = nlohmann::json;  // sorts the keys, which means the same
-#endif
-
-Json vectorJson(const Eigen::Vector3d& vector)
-{
-  return {vector.x(), vector.y(), vector.z()};
-}
 
 Json cameraJson(const View& view, const XtionModel& model)
 {

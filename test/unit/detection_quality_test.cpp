@@ -1,6 +1,7 @@
 // A small version of what `evaluate` measures, so that a loss is noticed: seeds that thresholds were not chosen on.
 
 #include "evaluation/evaluation.h"
+#include "simulation/paper_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -46,15 +47,22 @@ Score score(const std::vector<std::string>& scenes, const char* preset, std::siz
   return result;
 }
 
-const std::vector<std::string> kPaperScenes{"mugs",       "cleaning1", "kitchen1", "cleaning2", "household1",
-                                            "household2", "kitchen2",  "kitchen3", "luggage",   "cleaning3"};
+std::vector<std::string> paperSceneNames()
+{
+  std::vector<std::string> names;
+  for (const NamedScene& scene : paperScenes()) {
+    names.push_back(scene.name);
+  }
+  return names;
+}
 
 TEST(DetectionQuality, LocalizerOnThePapersScenes)
 {
-  const Score result = score(kPaperScenes, "localizer", 200, 0.5);
+  const Score result = score(paperSceneNames(), "localizer", 200, 0.5);
   EXPECT_GE(result.right, 0.98 * (result.right + result.wrong)) << result.right << " right, " << result.wrong;
   EXPECT_GE(result.found, 0.97 * result.affordances) << result.found << " of " << result.affordances;
   EXPECT_GT(result.affordances, 80);
+  EXPECT_GT(result.right, 1000);
 }
 
 TEST(DetectionQuality, LocalizerFarAwayAndInClutter)
@@ -63,21 +71,27 @@ TEST(DetectionQuality, LocalizerFarAwayAndInClutter)
     const Score result = score({scene}, "localizer", 200, 0.5);
     EXPECT_GE(result.right, 0.95 * (result.right + result.wrong)) << scene << ": " << result.wrong << " wrong";
     EXPECT_GE(result.found, 0.9 * result.affordances) << scene << ": " << result.found << " of " << result.affordances;
+    EXPECT_GT(result.affordances, 5) << scene;
+    EXPECT_GT(result.right, 50) << scene;
   }
 }
 
 TEST(DetectionQuality, LocalizerWhereNothingCanBeGrasped)
 {
   const Score result = score({"distractors"}, "localizer", 1, 1.0);
+  EXPECT_EQ(result.frames, 3);
+  EXPECT_EQ(result.right, 0);
   EXPECT_EQ(result.affordances, 0);
   EXPECT_LE(result.wrong, 2 * result.frames);
 }
 
 TEST(DetectionQuality, PaperOnThePapersScenes)
 {
-  const Score result = score(kPaperScenes, "paper", 800, 1.0);
+  const Score result = score(paperSceneNames(), "paper", 800, 1.0);
   EXPECT_GE(result.right, 0.9 * (result.right + result.wrong)) << result.right << " right, " << result.wrong;
   EXPECT_GE(result.found, 0.9 * result.affordances) << result.found << " of " << result.affordances;
+  EXPECT_GT(result.affordances, 50);
+  EXPECT_GT(result.right, 300);
 }
 
 }  // namespace

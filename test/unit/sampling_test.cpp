@@ -62,6 +62,7 @@ TEST(Screen, KeepsWhatAHandCanReachAround)
           kept += fallsAwayOnBothSides(*image, i, kHand) ? 1 : 0;
         }
       }
+      ASSERT_GT(on_bar, 100U);
       // Of the widest, seen across its corners by the nearest of four directions, some is lost.
       const double least = width < 0.04 ? 1.0 : 0.9;
       EXPECT_GE(static_cast<double>(kept), least * static_cast<double>(on_bar)) << lean << ", " << width;
