@@ -1,6 +1,7 @@
 #pragma once
 
 #include "grasp_affordances/neighborhoods.h"
+#include "grasp_affordances/quadric.h"
 
 #include <Eigen/Core>
 
@@ -22,6 +23,10 @@ struct Circle
 /// lie on a line. On arcs much shorter than the circle, with noise, the algebraic fit is biased towards small radii:
 /// see docs/accuracy.md.
 std::optional<Circle> fitCircle(const Neighborhood& neighborhood, const Eigen::Vector3d& first,
+                                const Eigen::Vector3d& second);
+
+/// The same from the neighborhood's moments and radius.
+std::optional<Circle> fitCircle(const Moments& moments, double scale, const Eigen::Vector3d& first,
                                 const Eigen::Vector3d& second);
 
 /// Circle through points of a plane by Taubin's method: the algebraic distance over its gradient, without the bias

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace grasp_affordances
 {
@@ -37,12 +36,7 @@ struct NeighborhoodCurvature
 /// Working memory of medianCurvature, one per thread.
 struct CurvatureScratch
 {
-  struct Point
-  {
-    double magnitude;
-    Eigen::Vector3d x;  // local
-  };
-  std::vector<Point> points;
+  Eigen::Array<double, Eigen::Dynamic, 5> points;  // local x, y, z, squared curvature, and that again to be sorted
 };
 
 /// Puts evenly spaced points of the neighborhood (`count` of them, all where there are fewer; the first one drawn with

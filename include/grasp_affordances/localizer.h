@@ -25,6 +25,10 @@ public:
   /// Never fails for what a cloud holds: a cloud without a usable point gives no samples, no shells and a warning.
   Localization localize(const Cloud& cloud);
 
+  /// The same into a result whose memory is used again. For organized clouds with intrinsics, of a size seen before,
+  /// nothing is allocated but by what has to grow.
+  void localize(const Cloud& cloud, Localization& result);
+
   const Config& config() const;
 
 private:

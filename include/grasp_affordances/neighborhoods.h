@@ -13,6 +13,8 @@
 namespace grasp_affordances
 {
 
+struct PixelRows;
+
 /// The points of a cloud within a sphere, gathered into contiguous arrays, in the order of their indices.
 /// Reuse one object per thread: its memory is kept from search to search.
 class Neighborhood
@@ -37,11 +39,16 @@ public:
   /// Appends the cloud's point at `index` if it lies within the sphere.
   void appendPoint(const Cloud& cloud, std::size_t index) { appendRange(cloud, index, index + 1); }
 
+  /// Appends those of the points in a window of an organized cloud that lie within the sphere.
+  void appendWindow(const Cloud& cloud, const PixelWindow& window);
+
   /// Keeps the k points nearest to the centre, of equally distant ones those with the smaller index, and shrinks the
   /// radius to the k-th distance. Needs at least k points.
   void keepNearest(std::size_t k);
 
 private:
+  void append(const PixelRows& rows);
+
   std::size_t size_ = 0;
   std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> index_;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 namespace grasp_affordances
@@ -18,13 +19,17 @@ class Moments
 public:
   static constexpr int kCount = 35;
 
+  /// Of no points: zeros.
+  Moments() = default;
+
   /// One pass over the points, in double precision. The neighborhood's radius must be above zero.
   explicit Moments(const Neighborhood& neighborhood);
 
   /// The sum of x^i y^j z^k; i + j + k <= 4. sum(0, 0, 0) is the number of points.
   double sum(int i, int j, int k) const;
 
-  double operator[](int index) const { return sums_[index]; }
+  /// All of them: graded by degree, then by k, then by j.
+  const std::array<double, kCount>& sums() const { return sums_; }
 
 private:
   std::array<double, kCount> sums_{};
@@ -68,5 +73,39 @@ std::optional<TaubinFit> fitTaubin(const Neighborhood& neighborhood);
 
 /// The same from moments of the neighborhood with the given centre and radius.
 std::optional<TaubinFit> fitTaubin(const Moments& moments, const Eigen::Vector3d& origin, double scale);
+
+/// Taubin's fit to several neighborhoods at once, each in a lane of the processor's registers: many times faster than
+/// one by one, with the same bits as fitTaubin. One instance serves one thread at a time.
+class TaubinFitter
+{
+public:
+  static constexpr std::size_t kCapacity = 8;
+
+  TaubinFitter();
+  ~TaubinFitter();
+  TaubinFitter(TaubinFitter&&) noexcept;
+  TaubinFitter& operator=(TaubinFitter&&) noexcept;
+
+  std::size_t size() const;
+
+  /// Starts over with no neighborhoods.
+  void clear();
+
+  /// Adds the moments of a neighborhood with the given centre and radius (m). At most kCapacity.
+  void add(const Moments& moments, const Eigen::Vector3d& origin, double scale);
+
+  /// Fits all that were added.
+  void fit();
+
+  /// The fit to the i-th neighborhood; empty where its points determine no unique quadric. After fit().
+  std::optional<TaubinFit> operator[](std::size_t i) const;
+
+  /// Fits so far for which the iteration did not settle, and the full eigenproblem was solved.
+  std::size_t solvedFully() const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
 
 }  // namespace grasp_affordances

@@ -1,49 +1,100 @@
 #include "grasp_affordances/circle.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <array>
 #include <cmath>
 
 namespace grasp_affordances
 {
+namespace
+{
+
+/// Mean, covariance and third central moments of points whose moments are known.
+struct PointStatistics
+{
+  explicit PointStatistics(const Moments& moments);
+
+  /// Mean of (p - mean), each weighted with the square of its distance from the axis through the mean.
+  Eigen::Vector3d thirdMomentAcross(const Eigen::Vector3d& axis) const;
+
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d covariance;
+  std::array<Eigen::Matrix3d, 3> third;  // [c](a, b): mean of the product of the coordinates a, b and c
+};
+
+PointStatistics::PointStatistics(const Moments& moments)
+{
+  const double n = moments.sum(0, 0, 0);
+  const auto product = [&](int a, int b = -1, int c = -1) {
+    int powers[3] = {};
+    for (const int axis : {a, b, c}) {
+      if (axis >= 0) {
+        ++powers[axis];
+      }
+    }
+    return moments.sum(powers[0], powers[1], powers[2]) / n;
+  };
+  for (int a = 0; a < 3; ++a) {
+    mean[a] = product(a);
+  }
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) {
+      covariance(a, b) = product(a, b) - mean[a] * mean[b];
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b < 3; ++b) {
+        third[c](a, b) = product(a, b, c) - mean[a] * covariance(b, c) - mean[b] * covariance(a, c) -
+                         mean[c] * covariance(a, b) - mean[a] * mean[b] * mean[c];
+      }
+    }
+  }
+}
+
+Eigen::Vector3d PointStatistics::thirdMomentAcross(const Eigen::Vector3d& axis) const
+{
+  Eigen::Vector3d result;
+  for (int c = 0; c < 3; ++c) {
+    result[c] = third[c].trace() - axis.dot(third[c] * axis);
+  }
+  return result;
+}
+
+}  // namespace
 
 std::optional<Circle> fitCircle(const Neighborhood& neighborhood, const Eigen::Vector3d& first,
                                 const Eigen::Vector3d& second)
 {
-  const std::size_t n = neighborhood.size();
-  if (n < 3 || !(neighborhood.radius > 0.0F)) {
+  if (neighborhood.size() < 3 || !(neighborhood.radius > 0.0F)) {
     return std::nullopt;
   }
-  const double scale = 1.0 / neighborhood.radius;
-  const Eigen::Vector3d center = neighborhood.center.cast<double>();
-  const auto project = [&](std::size_t i) {
-    const Eigen::Vector3d p = neighborhood.point(i).cast<double>() - center;
-    return Eigen::Vector2d(scale * first.dot(p), scale * second.dot(p));
-  };
+  return fitCircle(Moments(neighborhood), neighborhood.radius, first, second);
+}
 
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < n; ++i) {
-    mean += project(i);
-  }
-  mean /= n;
+std::optional<Circle> fitCircle(const Moments& moments, double scale, const Eigen::Vector3d& first,
+                                const Eigen::Vector3d& second)
+{
+  const PointStatistics points(moments);
+  const Eigen::Vector3d axis = first.cross(second);
+  Eigen::Matrix<double, 2, 3> project;
+  project << first.transpose(), second.transpose();
 
   // About the mean the normal equations of equation 4 fall apart: two for the centre, one for the radius.
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d third = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector2d q = project(i) - mean;
-    scatter += q * q.transpose();
-    third += q.squaredNorm() * q;
-  }
+  const Eigen::Vector2d mean = project * points.mean;
+  const Eigen::Matrix2d scatter = project * points.covariance * project.transpose();
+  const Eigen::Vector2d third = project * points.thirdMomentAcross(axis);
   const double determinant = scatter(0, 0) * scatter(1, 1) - scatter(0, 1) * scatter(1, 0);
   if (!(determinant > 1e-12 * scatter.trace() * scatter.trace())) {
     return std::nullopt;
   }
   const Eigen::Vector2d offset = 0.5 * (scatter.inverse() * third);
   Circle circle;
-  circle.center = (mean + offset) / scale;
-  circle.radius = std::sqrt(offset.squaredNorm() + scatter.trace() / n) / scale;
-  circle.mean = mean / scale;
+  circle.center = scale * (mean + offset);
+  circle.radius = scale * std::sqrt(offset.squaredNorm() + scatter.trace());
+  circle.mean = scale * mean;
   return circle;
 }
 

@@ -2,43 +2,49 @@
 
 #include "grasp_affordances/random.h"
 
+#include "core/quadric_curvatures.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace grasp_affordances
 {
 namespace
 {
 
-// Of symmetric [a b; b d]: the eigenvalue of larger magnitude, which has the sign of the trace.
-double largerEigenvalue(double a, double b, double d)
+QuadricCoefficients coefficients(const Quadric& quadric)
 {
-  const double mean = (a + d) / 2;
-  const double deviation = std::hypot((a - d) / 2, b);
-  return mean >= 0.0 ? mean + deviation : mean - deviation;
+  const Eigen::Matrix3d& A = quadric.A;
+  const Eigen::Vector3d& b = quadric.b;
+  return {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(0, 2), b.x(), b.y(), b.z(), quadric.c};
 }
 
-// Mean and Gaussian curvature from gradient and Hessian, and from them the larger principal curvature.
-double largerCurvature(const Eigen::Matrix3d& hessian, const Eigen::Matrix3d& adjugate, const Eigen::Vector3d& gradient)
+/// Local coordinates of `count` evenly spaced points of the neighborhood; `phase`, less than their number, says where
+/// they begin.
+void drawPoints(const Quadric& quadric, const Neighborhood& neighborhood, std::size_t count, std::size_t phase,
+                CurvatureScratch& scratch)
 {
-  const double squared_norm = gradient.squaredNorm();
-  const double mean = (squared_norm * hessian.trace() - gradient.dot(hessian * gradient)) /
-                      (2 * squared_norm * std::sqrt(squared_norm));
-  const double gaussian = gradient.dot(adjugate * gradient) / (squared_norm * squared_norm);
-  const double deviation = std::sqrt(std::max(0.0, mean * mean - gaussian));
-  return mean >= 0.0 ? mean + deviation : mean - deviation;
-}
-
-Eigen::Matrix3d symmetricAdjugate(const Eigen::Matrix3d& m)
-{
-  Eigen::Matrix3d adjugate;
-  adjugate.col(0) = m.col(1).cross(m.col(2));
-  adjugate.col(1) = m.col(2).cross(m.col(0));
-  adjugate.col(2) = m.col(0).cross(m.col(1));
-  return adjugate;
+  const std::size_t n = neighborhood.size(), room = (count + kCurvatureBatch - 1) / kCurvatureBatch * kCurvatureBatch;
+  if (static_cast<std::size_t>(scratch.points.rows()) < room) {
+    scratch.points.resize(static_cast<Eigen::Index>(room), Eigen::NoChange);
+  }
+  // The j-th point is (j n + phase) / count, without a division.
+  std::size_t i = phase / count, rest = phase % count;
+  const std::size_t stride = n / count, remainder = n % count;
+  const double scale = 1.0 / quadric.scale;
+  for (std::size_t j = 0; j < room; ++j) {
+    const auto row = static_cast<Eigen::Index>(j);
+    scratch.points(row, 0) = (neighborhood.x()[i] - quadric.origin.x()) * scale;
+    scratch.points(row, 1) = (neighborhood.y()[i] - quadric.origin.y()) * scale;
+    scratch.points(row, 2) = (neighborhood.z()[i] - quadric.origin.z()) * scale;
+    if (j + 1 < count) {
+      rest += remainder;
+      i += stride + (rest >= count ? 1 : 0);
+      rest -= rest >= count ? count : 0;
+    }
+  }
 }
 
 }  // namespace
@@ -55,11 +61,17 @@ PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vecto
   const double d = second.dot(shape * second);
 
   PrincipalCurvature result;
-  result.value = largerEigenvalue(a, b, d);
-  // Twice the angle from `first` to the direction of the algebraically larger curvature has tangent 2b / (a - d); the
-  // larger one in magnitude lies there or, for a negative trace, at right angles to it.
-  const double angle = 0.5 * std::atan2(2 * b, a - d) + (result.value < 0.0 ? M_PI / 2 : 0.0);
-  result.axis = std::cos(angle) * second - std::sin(angle) * first;
+  const double mean = (a + d) / 2, half_difference = (a - d) / 2;
+  const double deviation = std::hypot(half_difference, b);
+  // The direction of the algebraically larger curvature or, for a negative mean, of the smaller, from the row of the
+  // shape operator in which nothing cancels.
+  const double along_first = half_difference >= 0.0 ? deviation + half_difference : std::abs(b);
+  const double along_second = half_difference >= 0.0 ? b : std::copysign(deviation - half_difference, b);
+  const Eigen::Vector3d larger = along_first * first + along_second * second;
+  const Eigen::Vector3d across = along_first * second - along_second * first;
+  const bool negative = mean < 0.0;
+  result.value = negative ? mean - deviation : mean + deviation;
+  result.axis = deviation > 0.0 ? (negative ? larger : across).normalized() : second;
   return result;
 }
 
@@ -67,44 +79,28 @@ std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, con
                                                      const Eigen::Vector3d& sensor, std::size_t count,
                                                      std::uint64_t random_bits, CurvatureScratch& scratch)
 {
-  using Point = CurvatureScratch::Point;
-  const Eigen::Vector3d local_sensor = quadric.toLocal(sensor);
-  const Eigen::Matrix3d hessian = quadric.hessian();
-  const Eigen::Matrix3d adjugate = symmetricAdjugate(hessian);
-  const std::size_t n = neighborhood.size();
-  const std::size_t drawn = std::min(count, n);
-  const std::size_t phase = randomIndex(random_bits, static_cast<std::uint32_t>(std::max<std::size_t>(n, 1)));
-
-  std::vector<Point>& points = scratch.points;
-  points.clear();
-  std::size_t concave = 0;
-  for (std::size_t j = 0; j < drawn; ++j) {
-    const std::size_t i = (j * n + phase) / drawn % n;
-    Eigen::Vector3d x = quadric.toLocal(neighborhood.point(i).cast<double>());
-    Eigen::Vector3d gradient = quadric.gradient(x);
-    x -= quadric.value(x) / gradient.squaredNorm() * gradient;
-    gradient = quadric.gradient(x);
-    const double curvature = largerCurvature(hessian, adjugate, gradient);
-    if (!(x.squaredNorm() <= 1.0) || !std::isfinite(curvature)) {
-      continue;
-    }
-    const bool towards_sensor = gradient.dot(local_sensor - x) >= 0.0;
-    const bool curves_to_sensor = (curvature < 0.0) == towards_sensor && curvature != 0.0;
-    concave += curves_to_sensor ? 1 : 0;
-    points.push_back({std::abs(curvature), x});
+  const std::size_t n = neighborhood.size(), drawn = std::min(count, n);
+  if (drawn == 0) {
+    return std::nullopt;
   }
-  if (points.empty()) {
+  drawPoints(quadric, neighborhood, drawn, randomIndex(random_bits, static_cast<std::uint32_t>(n)), scratch);
+  const auto column = [&](Eigen::Index k) { return scratch.points.col(k).data(); };
+  const Eigen::Vector3d local_sensor = quadric.toLocal(sensor);
+  const CurvatureCounts counts = quadricCurvatures(coefficients(quadric), local_sensor.data(), drawn,
+                                                   {column(0), column(1), column(2), column(3)});
+  if (counts.valid == 0) {
     return std::nullopt;
   }
 
-  const auto median = points.begin() + points.size() / 2;
-  std::nth_element(points.begin(), median, points.end(), [](const Point& a, const Point& b) {
-    return std::tie(a.magnitude, a.x.x(), a.x.y(), a.x.z()) < std::tie(b.magnitude, b.x.x(), b.x.y(), b.x.z());
-  });
+  // What is not valid is infinite, and comes last.
+  double *squared = column(3), *sorted = column(4), *middle = sorted + counts.valid / 2;
+  std::copy(squared, squared + drawn, sorted);
+  std::nth_element(sorted, middle, sorted + drawn);
+  const Eigen::Index median = std::find(squared, squared + drawn, *middle) - squared;
   NeighborhoodCurvature result;
-  result.median = median->magnitude / quadric.scale;
-  result.axis = principalCurvature(quadric, median->x).axis;
-  result.concave = 2 * concave > points.size();
+  result.median = std::sqrt(*middle) / quadric.scale;
+  result.axis = principalCurvature(quadric, scratch.points.row(median).head<3>().matrix().transpose()).axis;
+  result.concave = 2 * counts.concave > counts.valid;
   return result;
 }
 

@@ -1,5 +1,8 @@
 #include "grasp_affordances/neighborhoods.h"
 
+#include "core/pixel_rows.h"
+#include "core/window_search.h"
+
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
@@ -12,40 +15,6 @@ namespace grasp_affordances
 {
 namespace
 {
-
-class WindowSearch : public NeighborhoodSearch
-{
-public:
-  WindowSearch(const RangeImage& image, std::size_t points) : image_(image), points_(points) {}
-
-  void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const override
-  {
-    const Cloud& cloud = image_.cloud();
-    result.clear(center, radius);
-    const PixelWindow window = image_.window(center.cast<double>(), radius);
-    for (int v = window.v_begin; v < window.v_end; ++v) {
-      const std::size_t row = static_cast<std::size_t>(v) * cloud.width;
-      result.appendRange(cloud, row + window.u_begin, row + window.u_end);
-    }
-  }
-
-  void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override
-  {
-    k = std::min(k, points_);
-    // A disc of k pixels on a surface that faces the sensor, and a little more for one that does not.
-    double radius =
-        1.3 * std::sqrt(k / M_PI) * image_.spacing(std::max(1e-3, std::abs(static_cast<double>(center.z()))));
-    do {
-      withinRadius(center, static_cast<float>(radius), result);
-      radius *= 2.0;
-    } while (result.size() < k);
-    result.keepNearest(k);
-  }
-
-private:
-  const RangeImage& image_;
-  std::size_t points_;
-};
 
 /// The tree computes its own distances: it is asked for slightly more, and the shared distance decides.
 class TreeSearch : public NeighborhoodSearch
@@ -128,7 +97,17 @@ void Neighborhood::clear(const Eigen::Vector3f& new_center, float new_radius)
 
 void Neighborhood::appendRange(const Cloud& cloud, std::size_t begin, std::size_t end)
 {
-  const std::size_t needed = size_ + (end - begin);
+  append({cloud.x.data(), cloud.y.data(), cloud.z.data(), cloud.size(), begin, 1, end - begin, 0});
+}
+
+void Neighborhood::appendWindow(const Cloud& cloud, const PixelWindow& window)
+{
+  append(pixelRows(cloud, window));
+}
+
+void Neighborhood::append(const PixelRows& rows)
+{
+  const std::size_t needed = size_ + rows.rows * rows.columns + kGatherSlack;
   if (needed > x_.size()) {
     const std::size_t room = std::max(needed, 2 * x_.size());
     x_.resize(room);
@@ -136,23 +115,7 @@ void Neighborhood::appendRange(const Cloud& cloud, std::size_t begin, std::size_
     z_.resize(room);
     index_.resize(room);
   }
-  // Local copies: the compiler cannot know that the stores below leave the members alone.
-  const float cx = center.x(), cy = center.y(), cz = center.z();
-  const float squared_radius = radius * radius;
-  const float *from_x = cloud.x.data(), *from_y = cloud.y.data(), *from_z = cloud.z.data();
-  float *to_x = x_.data(), *to_y = y_.data(), *to_z = z_.data();
-  std::uint32_t* to_index = index_.data();
-  std::size_t size = size_;
-  for (std::size_t i = begin; i < end; ++i) {
-    const float px = from_x[i], py = from_y[i], pz = from_z[i];
-    to_x[size] = px;
-    to_y[size] = py;
-    to_z[size] = pz;
-    to_index[size] = static_cast<std::uint32_t>(i);
-    // False for NaN: what was not measured is in no sphere.
-    size += squaredLength(px - cx, py - cy, pz - cz) <= squared_radius ? 1 : 0;
-  }
-  size_ = size;
+  size_ += gatherSphere(rows, center.data(), radius * radius, {&x_[size_], &y_[size_], &z_[size_], &index_[size_]});
 }
 
 void Neighborhood::keepNearest(std::size_t k)
@@ -181,6 +144,24 @@ void Neighborhood::keepNearest(std::size_t k)
   }
   size_ = kept;
   radius = std::sqrt(last.first);
+}
+
+void WindowSearch::withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const
+{
+  result.clear(center, radius);
+  result.appendWindow(image_.cloud(), image_.window(center.cast<double>(), radius));
+}
+
+void WindowSearch::nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const
+{
+  k = std::min(k, points_);
+  // A disc of k pixels on a surface that faces the sensor, and a little more for one that does not.
+  double radius = 1.3 * std::sqrt(k / M_PI) * image_.spacing(std::max(1e-3, std::abs(static_cast<double>(center.z()))));
+  do {
+    withinRadius(center, static_cast<float>(radius), result);
+    radius *= 2.0;
+  } while (result.size() < k);
+  result.keepNearest(k);
 }
 
 std::unique_ptr<NeighborhoodSearch> makeWindowSearch(const RangeImage& image, std::size_t points)

@@ -7,6 +7,7 @@
 #include "grasp_affordances/range_image.h"
 
 #include "core/thread_team.h"
+#include "core/window_search.h"
 
 #include <Eigen/Core>
 
@@ -19,29 +20,43 @@
 namespace grasp_affordances
 {
 
-/// One cloud, prepared for sampling: what all samples share and none changes. Neither copied nor moved, since its parts
-/// refer to one another.
-struct PreparedCloud
+/// One cloud, prepared for sampling: what all samples share and none changes. Keeps its memory from cloud to cloud.
+/// Neither copied nor moved, since its parts refer to one another.
+class PreparedCloud
 {
-  /// The cloud must outlive the prepared.
-  PreparedCloud(const Cloud& cloud, const Config& config, ThreadTeam& team);
+public:
+  PreparedCloud() = default;
   PreparedCloud(const PreparedCloud&) = delete;
   PreparedCloud& operator=(const PreparedCloud&) = delete;
+
+  /// Prepares another cloud, which must outlive its use.
+  void update(const Cloud& cloud, const Config& config, ThreadTeam& team);
+
+  /// The neighborhood of a point, given by its index in the cloud. Safe to call from many threads.
+  void findNeighborhood(std::uint32_t point, const Config& config, Neighborhood& neighborhood) const;
 
   /// Distance (m) between neighboring points at a point of the cloud; 0 without a range image.
   double spacing(const Eigen::Vector3d& point) const { return image ? image->spacing(point.z()) : 0.0; }
 
-  const Cloud& cloud;
+  const Cloud* cloud = nullptr;
   std::vector<std::uint32_t> measured;  // indices of the measured points
   std::optional<RangeImage> image;
   std::vector<std::uint32_t> candidates;       // indices of the points that are sampled first
-  std::unique_ptr<NeighborhoodSearch> search;  // null where there is nothing to localize
+  const NeighborhoodSearch* search = nullptr;  // null where there is nothing to localize
   Cloud hidden;                                // surfaces that go on behind what the sensor saw
   std::optional<RangeImage> hidden_image;
-  std::unique_ptr<NeighborhoodSearch> hidden_search;  // null where no hidden surfaces are asked for
-  Eigen::Vector3d sensor;                             // m, in the cloud's frame
-  Normals normals;                                    // only for the Normals variation
+  std::optional<WindowSearch> hidden_search;         // none where no hidden surfaces are asked for
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // m, in the cloud's frame
+  Normals normals;                                   // only for the Normals variation
   std::vector<std::string> warnings;
+
+private:
+  void updateOrganized(const Config& config);
+  void estimateNormals(double radius, ThreadTeam& team);
+
+  std::optional<WindowSearch> window_search_;
+  std::unique_ptr<NeighborhoodSearch> tree_search_;
+  std::vector<Neighborhood> neighborhoods_;  // one per thread
 };
 
 }  // namespace grasp_affordances

@@ -1,11 +1,12 @@
 #include "grasp_affordances/quadric.h"
 
+#include "core/moment_sums.h"
+#include "core/quadric_fits.h"
 #include "core/smallest_eigenvector.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <utility>
 
 namespace grasp_affordances
 {
@@ -19,74 +20,10 @@ struct Monomial
 
 // l(x) in the order of the paper's f (equation 1), not of its l.
 constexpr int kUnknowns = 10;
+static_assert(Moments::kCount == kMomentCount && TaubinFitter::kCapacity == kFitsAtOnce, "as in the kernels");
 constexpr int kGradientUnknowns = 9;  // all but the constant
 constexpr std::array<Monomial, kUnknowns> kQuadricMonomials{
     {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}};
-
-// Place of x^i y^j z^k among the moments: graded by degree, then by k, then by j.
-constexpr int momentIndex(int i, int j, int k)
-{
-  const int degree = i + j + k;
-  const int before = degree * (degree + 1) * (degree + 2) / 6;
-  return before + k * (2 * degree + 3 - k) / 2 + j;
-}
-static_assert(momentIndex(0, 0, 4) == Moments::kCount - 1, "moments are numbered without gaps");
-
-// Each moment of degree 2 or more is the sum of products of two terms of at most degree 2: the table tells which.
-constexpr int kTerms = 10;  // moments of degree at most 2
-struct Factors
-{
-  int first, second;
-};
-constexpr std::array<Factors, Moments::kCount> makeFactors()
-{
-  std::array<Factors, Moments::kCount> factors{};
-  for (int degree = 2; degree <= 4; ++degree) {
-    for (int k = 0; k <= degree; ++k) {
-      for (int j = 0; j + k <= degree; ++j) {
-        // Of a degree above 2 the first factor takes two units, of degree 2 one.
-        const int units = degree > 2 ? 2 : 1;
-        const int i = degree - j - k;
-        const int di = i < units ? i : units;
-        const int dj = j < units - di ? j : units - di;
-        const int dk = units - di - dj;
-        factors[momentIndex(i, j, k)] = {momentIndex(di, dj, dk), momentIndex(i - di, j - dj, k - dk)};
-      }
-    }
-  }
-  return factors;
-}
-constexpr std::array<Factors, Moments::kCount> kFactors = makeFactors();
-
-// Points are summed a tile at a time, which stays in the processor's nearest memory while each moment runs over it.
-constexpr Eigen::Index kTile = 32;
-using Tile = Eigen::Array<double, kTile, 1>;
-
-/// Adds the sums over a tile of the moments First + I, a few at a time, so that their sums stay in registers.
-template <std::size_t First, std::size_t... I>
-inline void addProducts(const std::array<Tile, kTerms>& terms, std::array<double, Moments::kCount>& sums,
-                        std::index_sequence<I...>)
-{
-  std::array<Eigen::Array2d, sizeof...(I)> partial;
-  partial.fill(Eigen::Array2d::Zero());
-  for (Eigen::Index i = 0; i < kTile; i += 2) {
-    ((partial[I] += terms[kFactors[First + I].first].template segment<2>(i) *
-                    terms[kFactors[First + I].second].template segment<2>(i)),
-     ...);
-  }
-  ((sums[First + I] += partial[I].sum()), ...);
-}
-
-/// (coordinate - middle) * scale of `count` points; zero, which adds nothing, beyond them.
-inline Tile localCoordinates(const float* coordinate, Eigen::Index count, double middle, double scale)
-{
-  if (count == kTile) {
-    return (Eigen::Map<const Eigen::Array<float, kTile, 1>>(coordinate).cast<double>() - middle) * scale;
-  }
-  Tile tile = Tile::Zero();
-  tile.head(count) = (Eigen::Map<const Eigen::ArrayXf>(coordinate, count).cast<double>() - middle) * scale;
-  return tile;
-}
 
 using Matrix9 = Eigen::Matrix<double, kGradientUnknowns, kGradientUnknowns>;
 using Vector9 = Eigen::Matrix<double, kGradientUnknowns, 1>;
@@ -135,12 +72,10 @@ struct Scatter
   Matrix9 N;  // the sum of l_x l_x' + l_y l_y' + l_z l_z'
 };
 
-Scatter scatterOf(const Moments& moments)
+using Means = std::array<double, Moments::kCount>;
+
+Scatter scatterOf(const Means& means)
 {
-  std::array<double, Moments::kCount> means;
-  for (int m = 0; m < Moments::kCount; ++m) {
-    means[m] = moments[m] / moments[0];
-  }
   Scatter scatter;
   for (const Entry& e : kMatrixEntries) {
     const double m = means[e.product] - means[e.row_monomial] * means[e.column_monomial];
@@ -154,50 +89,35 @@ Scatter scatterOf(const Moments& moments)
   return scatter;
 }
 
-}  // namespace
+using Vector10 = Eigen::Matrix<double, kUnknowns, 1>;
 
-Moments::Moments(const Neighborhood& neighborhood)
+TaubinFit makeFit(const Vector10& c, double eigenvalue, const Eigen::Vector3d& origin, double scale)
 {
-  const double scale = 1.0 / neighborhood.radius;
-  const Eigen::Vector3d center = neighborhood.center.cast<double>();
-  const auto n = static_cast<Eigen::Index>(neighborhood.size());
-  sums_[0] = static_cast<double>(n);
-  std::array<Tile, kTerms> terms;  // [0], the constant, is not used
-  for (Eigen::Index begin = 0; begin < n; begin += kTile) {
-    const Eigen::Index count = std::min(kTile, n - begin);
-    terms[1] = localCoordinates(neighborhood.x() + begin, count, center.x(), scale);
-    terms[2] = localCoordinates(neighborhood.y() + begin, count, center.y(), scale);
-    terms[3] = localCoordinates(neighborhood.z() + begin, count, center.z(), scale);
-    for (int m = 4; m < kTerms; ++m) {
-      terms[m] = terms[kFactors[m].first] * terms[kFactors[m].second];
-    }
-    for (int m = 1; m < kTerms; ++m) {
-      sums_[m] += terms[m].sum();
-    }
-    addProducts<10>(terms, sums_, std::make_index_sequence<5>());
-    addProducts<15>(terms, sums_, std::make_index_sequence<5>());
-    addProducts<20>(terms, sums_, std::make_index_sequence<8>());
-    addProducts<28>(terms, sums_, std::make_index_sequence<7>());
+  TaubinFit fit;
+  fit.residual = std::max(0.0, eigenvalue);
+  Quadric& quadric = fit.quadric;
+  quadric.origin = origin;
+  quadric.scale = scale;
+  quadric.A << c[0], c[3] / 2, c[5] / 2,  //
+      c[3] / 2, c[1], c[4] / 2,           //
+      c[5] / 2, c[4] / 2, c[2];
+  quadric.b = c.segment<3>(6);
+  quadric.c = c[9];
+  return fit;
+}
+
+/// One of the fits by Eigen's full decomposition.
+std::optional<TaubinFit> solveFully(const QuadricFits& fits, std::size_t i, const Eigen::Vector3d& origin, double scale)
+{
+  Means means;
+  for (int m = 0; m < Moments::kCount; ++m) {
+    means[m] = fits.moments[m][i] / fits.moments[0][i];
   }
-}
-
-double Moments::sum(int i, int j, int k) const
-{
-  return sums_[momentIndex(i, j, k)];
-}
-
-std::optional<TaubinFit> fitTaubin(const Moments& moments, const Eigen::Vector3d& origin, double scale)
-{
-  const auto [M, N] = scatterOf(moments);
-
-  // The smallest pivot is the square of twice the RMS thickness, relative to the radius.
-  constexpr double kSmallestPivot = 1e-10;
+  const auto [M, N] = scatterOf(means);
   const Eigen::LLT<Matrix9> cholesky(N);
-  const Vector9 pivots = cholesky.matrixLLT().diagonal();
-  if (cholesky.info() != Eigen::Success || !(pivots.minCoeff() * pivots.minCoeff() > kSmallestPivot)) {
+  if (cholesky.info() != Eigen::Success) {
     return std::nullopt;
   }
-
   // With N = LL' and c = L^-T y the problem is the ordinary symmetric one of L^-1 M L^-T.
   Matrix9 reduced = cholesky.matrixL().solve(M);
   reduced = cholesky.matrixL().solve(reduced.transpose()).eval();
@@ -206,22 +126,115 @@ std::optional<TaubinFit> fitTaubin(const Moments& moments, const Eigen::Vector3d
   if (!smallest) {
     return std::nullopt;
   }
-  const Vector9 c = cholesky.matrixU().solve(smallest->vector);
-
-  TaubinFit fit;
-  fit.residual = std::max(0.0, smallest->value);
-  Quadric& quadric = fit.quadric;
-  quadric.origin = origin;
-  quadric.scale = scale;
-  quadric.A << c[0], c[3] / 2, c[5] / 2,  //
-      c[3] / 2, c[1], c[4] / 2,           //
-      c[5] / 2, c[4] / 2, c[2];
-  quadric.b = c.tail<3>();
+  Vector10 c;
+  c << cholesky.matrixU().solve(smallest->vector), 0.0;
   for (int a = 0; a < kGradientUnknowns; ++a) {
     const Monomial p = kQuadricMonomials[a];
-    quadric.c -= c[a] * moments.sum(p.i, p.j, p.k) / moments.sum(0, 0, 0);
+    c[9] -= c[a] * means[momentIndex(p.i, p.j, p.k)];
   }
-  return fit;
+  return makeFit(c, smallest->value, origin, scale);
+}
+
+}  // namespace
+
+Moments::Moments(const Neighborhood& neighborhood)
+{
+  const float* const coordinates[3] = {neighborhood.x(), neighborhood.y(), neighborhood.z()};
+  const double center[3] = {neighborhood.center.x(), neighborhood.center.y(), neighborhood.center.z()};
+  sumMoments(coordinates, neighborhood.size(), center, sums_.data());
+  const double scale = 1.0 / neighborhood.radius;
+  double factor = 1.0;
+  for (int degree = 1, m = 1; degree <= 4; ++degree) {
+    factor *= scale;
+    for (const int end = momentIndex(0, 0, degree) + 1; m < end; ++m) {
+      sums_[m] *= factor;
+    }
+  }
+}
+
+double Moments::sum(int i, int j, int k) const
+{
+  return sums_[momentIndex(i, j, k)];
+}
+
+struct TaubinFitter::Implementation
+{
+  TaubinFit fitOf(std::size_t i) const;
+
+  QuadricFits lanes;
+  std::array<Eigen::Vector3d, kCapacity> origins;
+  std::array<double, kCapacity> scales;
+  std::array<std::optional<TaubinFit>, kCapacity> results;
+  std::size_t size = 0;
+  std::size_t solved_fully = 0;
+};
+
+TaubinFitter::TaubinFitter() : implementation_(std::make_unique<Implementation>()) {}
+TaubinFitter::~TaubinFitter() = default;
+TaubinFitter::TaubinFitter(TaubinFitter&&) noexcept = default;
+TaubinFitter& TaubinFitter::operator=(TaubinFitter&&) noexcept = default;
+
+std::size_t TaubinFitter::size() const
+{
+  return implementation_->size;
+}
+
+void TaubinFitter::clear()
+{
+  implementation_->size = 0;
+}
+
+void TaubinFitter::add(const Moments& moments, const Eigen::Vector3d& origin, double scale)
+{
+  const std::size_t lane = implementation_->size++;
+  for (int m = 0; m < Moments::kCount; ++m) {
+    implementation_->lanes.moments[m][lane] = moments.sums()[m];
+  }
+  implementation_->origins[lane] = origin;
+  implementation_->scales[lane] = scale;
+}
+
+void TaubinFitter::fit()
+{
+  QuadricFits& lanes = implementation_->lanes;
+  fitQuadrics(lanes, implementation_->size);
+  for (std::size_t i = 0; i < implementation_->size; ++i) {
+    auto& result = implementation_->results[i];
+    result.reset();
+    if (lanes.status[i] == FitStatus::unique) {
+      result = implementation_->fitOf(i);
+    } else if (lanes.status[i] == FitStatus::not_converged) {
+      ++implementation_->solved_fully;
+      result = solveFully(lanes, i, implementation_->origins[i], implementation_->scales[i]);
+    }
+  }
+}
+
+std::optional<TaubinFit> TaubinFitter::operator[](std::size_t i) const
+{
+  return implementation_->results[i];
+}
+
+std::size_t TaubinFitter::solvedFully() const
+{
+  return implementation_->solved_fully;
+}
+
+TaubinFit TaubinFitter::Implementation::fitOf(std::size_t i) const
+{
+  Vector10 c;
+  for (int a = 0; a < kUnknowns; ++a) {
+    c[a] = lanes.coefficients[a][i];
+  }
+  return makeFit(c, lanes.eigenvalue[i], origins[i], scales[i]);
+}
+
+std::optional<TaubinFit> fitTaubin(const Moments& moments, const Eigen::Vector3d& origin, double scale)
+{
+  TaubinFitter fitter;
+  fitter.add(moments, origin, scale);
+  fitter.fit();
+  return fitter[0];
 }
 
 std::optional<TaubinFit> fitTaubin(const Neighborhood& neighborhood)

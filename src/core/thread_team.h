@@ -27,7 +27,8 @@ public:
   std::size_t size() const { return static_cast<std::size_t>(threads_); }
 
   /// Calls task(i, member) for every i < count, in no particular order; no two calls at a time have the same
-  /// member < size(), so that a member can own working memory.
+  /// member < size(), so that a member can own working memory. A call should take some microseconds at least: much more
+  /// than the cost of handing it out.
   template <typename Task>
   void forEach(std::size_t count, Task&& task)
   {
@@ -37,9 +38,8 @@ public:
       }
       return;
     }
-    constexpr std::size_t kGrain = 16;  // some 100 microseconds: much more than the cost of handing it out
     arena_.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& range) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
         const auto member = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
           task(i, member);

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+
+namespace grasp_affordances
+{
+
+constexpr int kMomentCount = 35;
+
+/// Place of x^i y^j z^k among the moments: graded by degree, then by k, then by j.
+constexpr int momentIndex(int i, int j, int k)
+{
+  const int degree = i + j + k;
+  const int before = degree * (degree + 1) * (degree + 2) / 6;
+  return before + k * (2 * degree + 3 - k) / 2 + j;
+}
+static_assert(momentIndex(0, 0, 4) == kMomentCount - 1, "moments are numbered without gaps");
+
+/// Sums over `count` points of all monomials of degree at most 4 in their coordinates from a centre, in double
+/// precision. @param coordinates of the points, three arrays. @param center its three coordinates.
+/// @param sums kMomentCount of them, by momentIndex.
+void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* sums);
+
+}  // namespace grasp_affordances

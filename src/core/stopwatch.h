@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+#include <utility>
+
+namespace grasp_affordances
+{
+
+/// The milliseconds since it was made or last asked.
+class Stopwatch
+{
+public:
+  double lap()
+  {
+    const Clock::time_point now = Clock::now();
+    return std::chrono::duration<double, std::milli>(now - std::exchange(start_, now)).count();
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace grasp_affordances

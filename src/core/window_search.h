@@ -1,0 +1,28 @@
+#pragma once
+
+#include "grasp_affordances/neighborhoods.h"
+#include "grasp_affordances/range_image.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+
+namespace grasp_affordances
+{
+
+/// Searches an organized cloud in the window of pixels that the sphere projects to. `points`: measured ones of the
+/// cloud. The image must outlive the search.
+class WindowSearch : public NeighborhoodSearch
+{
+public:
+  WindowSearch(const RangeImage& image, std::size_t points) : image_(image), points_(points) {}
+
+  void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const override;
+  void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override;
+
+private:
+  const RangeImage& image_;
+  std::size_t points_;
+};
+
+}  // namespace grasp_affordances
