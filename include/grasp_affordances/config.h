@@ -30,6 +30,13 @@ enum class Estimator
   normals  ///< direction in which the surface normals vary least ("Normals variation")
 };
 
+/// How many surface normals the Normals variation looks at.
+enum class NormalsMode
+{
+  exact,  ///< those of all points of a neighborhood
+  sparse  ///< those of every fourth row and column: a sixteenth, for speed
+};
+
 struct SamplingConfig
 {
   int samples = 4000;      ///< neighborhoods drawn per cloud (n of Algorithm 1)
@@ -58,6 +65,7 @@ struct EstimationConfig
   int curvature_points = 50;     ///< points of the neighborhood at which the quadric's curvature is taken
   bool reject_concave = true;    ///< reject neighborhoods whose centre of curvature is on the sensor's side
   double normals_radius = 0.03;  ///< m, support of the surface normals of the Normals variation
+  NormalsMode normals_mode = NormalsMode::exact;
 };
 
 struct ShellConfig

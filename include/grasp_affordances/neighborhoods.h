@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace grasp_affordances
@@ -52,7 +51,7 @@ private:
   std::size_t size_ = 0;
   std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> index_;
-  std::vector<std::pair<float, std::uint32_t>> order_;  // squared distance, index
+  std::vector<float> squared_distances_;
 };
 
 /// Finds the points of a cloud around a place. Every implementation returns the same points in the same order: those

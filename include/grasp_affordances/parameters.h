@@ -21,7 +21,8 @@ struct Range
 /// parameters, validation and documentation all go through it.
 ///
 /// Calls `visit(name, field, range, unit, description)` for numbers (field: double&, int& or std::uint64_t&) and
-/// `visit(name, field, description)` for bool&, NeighborhoodKind& and Estimator&. Names are paths:
+/// `visit(name, field, description)` for bool&, NeighborhoodKind&, Estimator& and
+/// NormalsMode&. Names are paths:
 /// "hand/capture_radius" is the key capture_radius in the YAML map hand, and the private ROS parameter
 /// ~hand/capture_radius.
 template <typename ConfigT, typename Visitor>
@@ -59,6 +60,8 @@ void visitParameters(ConfigT& c, Visitor&& visit)
         "reject neighborhoods whose centre of curvature is on the sensor's side");
   visit("estimation/normals_radius", c.estimation.normals_radius, Real{0.001, 0.1}, "m",
         "support of the surface normals of the Normals variation");
+  visit("estimation/normals_mode", c.estimation.normals_mode,
+        "of a neighborhood's surface normals all, or those of every fourth row and column");
 
   visit("shell/radius_step", c.shell.radius_step, Real{0.0001, 0.01}, "m", "by which the shell grows");
   visit("shell/clearance_length", c.shell.clearance_length, Real{0.001, 0.5}, "m",
@@ -99,6 +102,8 @@ template <>
 const std::vector<std::string>& enumWords<NeighborhoodKind>();  // radius, knn
 template <>
 const std::vector<std::string>& enumWords<Estimator>();  // taubin, pca, normals
+template <>
+const std::vector<std::string>& enumWords<NormalsMode>();  // exact, sparse
 
 template <typename Enum>
 const std::string& enumWord(Enum value)
@@ -113,6 +118,8 @@ template <>
 NeighborhoodKind enumFromWord<NeighborhoodKind>(const std::string& name, const std::string& word);
 template <>
 Estimator enumFromWord<Estimator>(const std::string& name, const std::string& word);
+template <>
+NormalsMode enumFromWord<NormalsMode>(const std::string& name, const std::string& word);
 
 /// Reads parameters from YAML text over the preset that its key `preset` names, else over `base`.
 /// Keys that are missing keep their value; the values are validated.

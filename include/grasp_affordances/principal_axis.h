@@ -2,6 +2,7 @@
 
 #include "grasp_affordances/neighborhoods.h"
 #include "grasp_affordances/normals.h"
+#include "grasp_affordances/quadric.h"
 
 #include <Eigen/Core>
 
@@ -13,6 +14,9 @@ namespace grasp_affordances
 /// The PCA variation: the unit eigenvector of the largest eigenvalue of the points' covariance (paper, section V-A).
 /// Empty where the two largest eigenvalues coincide to rounding: the points have no longest direction.
 std::optional<Eigen::Vector3d> pointsAxis(const Neighborhood& neighborhood);
+
+/// The same from the neighborhood's moments, of degree 2 at least.
+std::optional<Eigen::Vector3d> pointsAxis(const Moments& moments);
 
 /// The Normals variation: the unit eigenvector of the smallest eigenvalue of the sum of n n' over the neighborhood's
 /// surface normals (paper, section V-A). Empty where the two smallest eigenvalues coincide to rounding: on a plane the

@@ -22,8 +22,9 @@ public:
   /// Of no points: zeros.
   Moments() = default;
 
-  /// One pass over the points, in double precision. The neighborhood's radius must be above zero.
-  explicit Moments(const Neighborhood& neighborhood);
+  /// One pass over the points, in double precision. The neighborhood's radius must be above zero. Sums of a degree
+  /// above `degree` (2, 3 or 4) stay zero.
+  explicit Moments(const Neighborhood& neighborhood, int degree = 4);
 
   /// The sum of x^i y^j z^k; i + j + k <= 4. sum(0, 0, 0) is the number of points.
   double sum(int i, int j, int k) const;

@@ -11,6 +11,8 @@
 namespace grasp_affordances
 {
 
+class ThreadTeam;
+
 /// Half-open rectangle of pixels: columns [u_begin, u_end), rows [v_begin, v_end).
 struct PixelWindow
 {
@@ -27,10 +29,12 @@ struct ReprojectionFit
 
 /// Least-squares intrinsics of an organized cloud: regression of the pixel coordinates on x/z and y/z.
 /// Empty where they are undetermined (no points, points of one column or row only) or where a point has z <= 0.
-std::optional<ReprojectionFit> estimateIntrinsics(const Cloud& cloud);
+/// @param team shares the work, without influence on the result; none: the caller's thread does it.
+std::optional<ReprojectionFit> estimateIntrinsics(const Cloud& cloud, ThreadTeam* team = nullptr);
 
 /// The residual of given intrinsics. Empty where one of them is not finite, or a point has z <= 0.
-std::optional<ReprojectionFit> checkIntrinsics(const Cloud& cloud, const PinholeIntrinsics& intrinsics);
+std::optional<ReprojectionFit> checkIntrinsics(const Cloud& cloud, const PinholeIntrinsics& intrinsics,
+                                               ThreadTeam* team = nullptr);
 
 /// An organized cloud seen as what it was measured as: a range image, whose pixels its points reproject to. Refers to
 /// the cloud, which must outlive it. Safe to read from many threads.
@@ -41,8 +45,9 @@ public:
   static constexpr double kMaxResidual = 4.0;
 
   /// Empty where the cloud is not organized, or its points do not reproject; `warning` then says why. Intrinsics
-  /// that the cloud carries and that do not fit are replaced by estimated ones, with a warning.
-  static std::optional<RangeImage> create(const Cloud& cloud, std::string& warning);
+  /// that the cloud carries and that do not fit are replaced by estimated ones, with a warning. Allocates nothing but
+  /// warnings.
+  static std::optional<RangeImage> create(const Cloud& cloud, std::string& warning, ThreadTeam* team = nullptr);
 
   /// Another cloud of the same size, each point of which is on its pixel's ray, seen by the same camera.
   RangeImage withCloud(const Cloud& cloud) const

@@ -123,6 +123,13 @@ const std::vector<std::string>& enumWords<Estimator>()
 }
 
 template <>
+const std::vector<std::string>& enumWords<NormalsMode>()
+{
+  static const std::vector<std::string> words{"exact", "sparse"};
+  return words;
+}
+
+template <>
 NeighborhoodKind enumFromWord<NeighborhoodKind>(const std::string& name, const std::string& word)
 {
   return findWord<NeighborhoodKind>(name, word);
@@ -132,6 +139,12 @@ template <>
 Estimator enumFromWord<Estimator>(const std::string& name, const std::string& word)
 {
   return findWord<Estimator>(name, word);
+}
+
+template <>
+NormalsMode enumFromWord<NormalsMode>(const std::string& name, const std::string& word)
+{
+  return findWord<NormalsMode>(name, word);
 }
 
 }  // namespace grasp_affordances

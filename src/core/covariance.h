@@ -9,6 +9,9 @@
 namespace grasp_affordances
 {
 
+/// The symmetric matrix of second degree moments, of their sums by momentIndex.
+Eigen::Matrix3d secondMoments(const double* sums);
+
 /// Covariance (divided by n) of the neighborhood's points, in units of its radius. Zero for no points or no radius.
 Eigen::Matrix3d covariance(const Neighborhood& neighborhood);
 

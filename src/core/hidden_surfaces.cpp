@@ -1,11 +1,11 @@
+#include "core/hidden_surfaces.h"
+
 #include "grasp_affordances/hidden_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <optional>
-#include <vector>
 
 namespace grasp_affordances
 {
@@ -20,49 +20,34 @@ struct Line
   double operator()(int pixel) const { return at + slope * pixel; }
 };
 
+/// Two stretches that belong to one surface: up to `left` and from `right` on.
+struct Bridge
+{
+  int left, right;
+  Line line;
+};
+
 /// A row or column of the image: inverse depth per pixel, NaN where nothing was measured, and how surfaces go on in it.
 class ScanLine
 {
 public:
-  /// Two stretches that belong to one surface: up to `left` and from `right` on.
-  struct Bridge
-  {
-    int left, right;
-    Line line;
-  };
+  /// The arrays of findSurfaceEnds, from the line's own first numbers on.
+  ScanLine(const double* inverse_depth, const double* sums) : inverse_depth_(inverse_depth), sums_(sums) {}
 
-  void clear()
-  {
-    inverse_depth_.clear();
-    sums_.assign(1, Sums());
-  }
-
-  void append(double depth)
-  {
-    const double d = 1.0 / depth;
-    const auto i = static_cast<double>(inverse_depth_.size());
-    inverse_depth_.push_back(d);
-    sums_.push_back(std::isnan(d) ? sums_.back() : sums_.back() + Sums{1.0, i, i * i, d, i * d});
-  }
-
-  bool measuredBehind(int pixel, const Line& line) const { return inverse_depth_[pixel] < line(pixel) - kTolerance; }
   bool measuredAt(int pixel, const Line& line) const
   {
-    return std::abs(inverse_depth_[pixel] - line(pixel)) <= kTolerance;
+    return std::abs(inverseDepth(pixel) - line(pixel)) <= kSurfaceTolerance;
   }
 
   /// Calls visit(bridge) for all that are no wider than `max_width` (m) at `focal_length` (pixels).
   template <typename Visitor>
-  void visitBridges(double max_width, double focal_length, Visitor&& visit);
+  void visitBridges(const std::vector<int>& left, const std::vector<int>& right, double max_width, double focal_length,
+                    Visitor&& visit) const;
 
 private:
-  static constexpr int kStretch = 12;          // pixels that show which way a surface goes
-  static constexpr int kFewestMeasured = 9;    // of them
-  static constexpr double kTolerance = 0.006;  // 1/m: two disparity steps of a structured-light sensor
-
   struct Sums
   {
-    double n = 0.0, i = 0.0, ii = 0.0, d = 0.0, id = 0.0;
+    double n, i, ii, d, id;
 
     Sums operator+(const Sums& other) const
     {
@@ -79,47 +64,31 @@ private:
     }
   };
 
-  Sums stretch(int first) const { return sums_[first + kStretch] - sums_[first]; }
-  bool leavesSurface(int pixel, int direction) const;
+  double inverseDepth(int pixel) const { return inverse_depth_[pixel * kScanLines]; }
+  Sums sumsBefore(int pixel) const
+  {
+    const double* sums = sums_ + pixel * kLineSums * kScanLines;
+    return {sums[0], sums[kScanLines], sums[2 * kScanLines], sums[3 * kScanLines], sums[4 * kScanLines]};
+  }
+  Sums stretch(int first) const { return sumsBefore(first + kStretch) - sumsBefore(first); }
+  bool measuredBehind(int pixel, const Line& line) const
+  {
+    return inverseDepth(pixel) < line(pixel) - kSurfaceTolerance;
+  }
   std::optional<Line> commonLine(int left, int right) const;
 
-  std::vector<double> inverse_depth_;
-  std::vector<Sums> sums_;  // over the pixels before
-  std::vector<int> left_, right_;
+  const double* inverse_depth_;
+  const double* sums_;
 };
-
-/// Whether a stretch that ends at a pixel goes no further in a direction (1, -1): what follows is nearer or missing.
-bool ScanLine::leavesSurface(int pixel, int direction) const
-{
-  if (std::isnan(inverse_depth_[pixel])) {
-    return false;
-  }
-  constexpr int kAhead = 3;
-  const Sums sums = stretch(direction > 0 ? pixel - kStretch + 1 : pixel);
-  if (sums.n < kFewestMeasured) {
-    return false;
-  }
-  const Line line = sums.line();
-  bool leaves = measuredAt(pixel, line);
-  for (int k = 1; k <= kAhead && leaves; ++k) {
-    const int ahead = pixel + direction * k;
-    // The farther ahead, the less certain is the line. True for NaN.
-    leaves = !(inverse_depth_[ahead] <= line(ahead) + kTolerance * (0.5 + 0.25 * k));
-  }
-  return leaves;
-}
 
 /// The line through the stretches on both sides, if they lie on one and nothing between them was measured behind it.
 std::optional<Line> ScanLine::commonLine(int left, int right) const
 {
   const Sums before = stretch(left - kStretch + 1), after = stretch(right);
-  if (before.n < kFewestMeasured || after.n < kFewestMeasured) {
-    return std::nullopt;
-  }
   const Line line = (before + after).line();
   for (int k = 0; k < kStretch; ++k) {
     for (const int pixel : {left - k, right + k}) {
-      if (!std::isnan(inverse_depth_[pixel]) && !measuredAt(pixel, line)) {
+      if (!std::isnan(inverseDepth(pixel)) && !measuredAt(pixel, line)) {
         return std::nullopt;
       }
     }
@@ -133,30 +102,36 @@ std::optional<Line> ScanLine::commonLine(int left, int right) const
 }
 
 template <typename Visitor>
-void ScanLine::visitBridges(double max_width, double focal_length, Visitor&& visit)
+void ScanLine::visitBridges(const std::vector<int>& left, const std::vector<int>& right, double max_width,
+                            double focal_length, Visitor&& visit) const
 {
-  left_.clear();
-  right_.clear();
-  const int size = static_cast<int>(inverse_depth_.size());
-  for (int i = kStretch; i + kStretch < size; ++i) {
-    if (leavesSurface(i, 1)) {
-      left_.push_back(i);
-    }
-    if (leavesSurface(i, -1)) {
-      right_.push_back(i);
-    }
-  }
-  auto first = right_.begin();
-  for (const int left : left_) {
-    first = std::find_if(first, right_.end(), [&](int right) { return right > left + 1; });
-    for (auto right = first; right != right_.end(); ++right) {
-      const double depth = 1.0 / std::max(inverse_depth_[left], inverse_depth_[*right]);
-      if ((*right - left) * depth > max_width * focal_length) {
+  auto first = right.begin();
+  for (const int l : left) {
+    first = std::find_if(first, right.end(), [&](int r) { return r > l + 1; });
+    for (auto r = first; r != right.end(); ++r) {
+      const double depth = 1.0 / std::max(inverseDepth(l), inverseDepth(*r));
+      if ((*r - l) * depth > max_width * focal_length) {
         break;
       }
-      if (const auto line = commonLine(left, *right)) {
-        visit(Bridge{left, *right, *line});
+      if (const auto line = commonLine(l, *r)) {
+        visit(Bridge{l, *r, *line});
         break;
+      }
+    }
+  }
+}
+
+/// By line, the pixels whose bit is set.
+void listPixels(const std::vector<std::uint8_t>& bits, std::size_t size,
+                std::array<std::vector<int>, kScanLines>& pixels)
+{
+  for (auto& of_line : pixels) {
+    of_line.clear();
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t line = 0, rest = bits[i]; rest != 0; ++line, rest >>= 1U) {
+      if ((rest & 1U) != 0) {
+        pixels[line].push_back(static_cast<int>(i));
       }
     }
   }
@@ -164,40 +139,130 @@ void ScanLine::visitBridges(double max_width, double focal_length, Visitor&& vis
 
 }  // namespace
 
+void HiddenSurfaces::Block::resize(std::size_t pixels)
+{
+  depth.resize(pixels * kScanLines);
+  inverse_depth.resize(pixels * kScanLines);
+  sums.resize((pixels + 1) * kLineSums * kScanLines);
+  last.resize(pixels);
+  first.resize(pixels);
+  for (std::size_t line = 0; line < kScanLines; ++line) {
+    left[line].reserve(pixels);
+    right[line].reserve(pixels);
+  }
+}
+
+void HiddenSurfaces::update(const RangeImage& image, double max_width, ThreadTeam& team)
+{
+  const std::uint32_t width = image.cloud().width, height = image.cloud().height;
+  if (cloud_.width != width || cloud_.height != height) {
+    cloud_.reset(width, height);
+    tile_columns_ = (width + kTile - 1) / kTile;
+    tile_rows_ = (height + kTile - 1) / kTile;
+    tiles_.assign(tile_columns_ * tile_rows_, 0);
+  }
+  blocks_.resize(team.size());
+  for (Block& block : blocks_) {
+    block.resize(std::max(width, height));
+  }
+  team.forEach(tile_rows_, [&](std::size_t tile, std::size_t member) {
+    clearTiles(tile);
+    continueAlong(true, tile, image, max_width, blocks_[member]);
+  });
+  team.forEach(tile_columns_, [&](std::size_t tile, std::size_t member) {
+    continueAlong(false, tile, image, max_width, blocks_[member]);
+  });
+}
+
+void HiddenSurfaces::clearTiles(std::size_t tile_row)
+{
+  const std::size_t v_end = std::min<std::size_t>((tile_row + 1) * kTile, cloud_.height);
+  for (std::size_t tile = 0; tile < tile_columns_; ++tile) {
+    std::uint8_t& has_points = tiles_[tile_row * tile_columns_ + tile];
+    if (has_points == 0) {
+      continue;
+    }
+    has_points = 0;
+    const std::size_t columns = std::min<std::size_t>(kTile, cloud_.width - tile * kTile);
+    for (std::size_t v = tile_row * kTile; v < v_end; ++v) {
+      for (auto* coordinate : {&cloud_.x, &cloud_.y, &cloud_.z}) {
+        std::fill_n(coordinate->begin() + static_cast<std::ptrdiff_t>(v * cloud_.width + tile * kTile), columns,
+                    std::nanf(""));
+      }
+    }
+  }
+}
+
+/// Continues the surfaces in the rows (or columns) of a row (or column) of tiles.
+void HiddenSurfaces::continueAlong(bool rows, std::size_t tile, const RangeImage& image, double max_width, Block& block)
+{
+  const Cloud& seen = image.cloud();
+  const PinholeIntrinsics& camera = image.intrinsics();
+  const std::size_t width = seen.width, height = seen.height;
+  const std::size_t size = rows ? width : height, step = rows ? 1 : width;
+  const std::size_t begin = tile * kTile, end = std::min(begin + kTile, rows ? height : width);
+  const std::size_t lines = (end - begin + kStride - 1) / kStride;
+
+  if (lines < kScanLines) {
+    std::fill_n(block.depth.begin(), size * kScanLines, std::nanf(""));
+  }
+  const float* depth = seen.z.data() + begin * (rows ? width : 1);
+  const std::size_t line_step = kStride * (rows ? width : 1);
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t line = 0; line < lines; ++line) {
+      block.depth[i * kScanLines + line] = depth[i * step + line * line_step];
+    }
+  }
+  findSurfaceEnds(block.depth.data(), size, block.inverse_depth.data(), block.sums.data(), block.last.data(),
+                  block.first.data());
+
+  listPixels(block.last, size, block.left);
+  listPixels(block.first, size, block.right);
+  for (std::size_t line = 0; line < lines; ++line) {
+    const std::size_t across = begin + line * kStride;
+    const ScanLine scan_line(block.inverse_depth.data() + line, block.sums.data() + line);
+    scan_line.visitBridges(
+        block.left[line], block.right[line], max_width, std::abs(rows ? camera.fx : camera.fy),
+        [&](const Bridge& bridge) {
+          for (int i = bridge.left + 1; i < bridge.right; ++i) {
+            const std::size_t along = static_cast<std::size_t>(i);
+            const std::size_t u = rows ? along : across, v = rows ? across : along;
+            const std::size_t pixel = v * width + u;
+            const double z = 1.0 / bridge.line(i);
+            if (scan_line.measuredAt(i, bridge.line) || cloud_.z[pixel] >= z) {
+              continue;
+            }
+            cloud_.set(pixel, static_cast<float>((static_cast<double>(u) - camera.cx) / camera.fx * z),
+                       static_cast<float>((static_cast<double>(v) - camera.cy) / camera.fy * z), static_cast<float>(z));
+            tiles_[v / kTile * tile_columns_ + u / kTile] = 1;
+          }
+        });
+  }
+}
+
+bool HiddenSurfaces::empty(const PixelWindow& window) const
+{
+  const auto tileBegin = [](int pixel) { return static_cast<std::size_t>(std::max(pixel, 0)) / kTile; };
+  const auto tileEnd = [](int pixel, std::size_t tiles) {
+    return std::min((static_cast<std::size_t>(std::max(pixel, 0)) + kTile - 1) / kTile, tiles);
+  };
+  const std::size_t u_begin = tileBegin(window.u_begin), u_end = tileEnd(window.u_end, tile_columns_);
+  for (std::size_t v = tileBegin(window.v_begin); v < tileEnd(window.v_end, tile_rows_); ++v) {
+    for (std::size_t u = u_begin; u < u_end; ++u) {
+      if (tiles_[v * tile_columns_ + u] != 0) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 Cloud continueSurfaces(const RangeImage& image, double max_width)
 {
-  const Cloud& cloud = image.cloud();
-  const PinholeIntrinsics& camera = image.intrinsics();
-  Cloud hidden;
-  hidden.reset(cloud.width, cloud.height);
-
-  ScanLine scan_line;
-  const auto continueAlong = [&](std::size_t first, std::size_t stride, std::size_t size, double focal_length) {
-    scan_line.clear();
-    for (std::size_t i = 0; i < size; ++i) {
-      scan_line.append(cloud.z[first + i * stride]);
-    }
-    scan_line.visitBridges(max_width, std::abs(focal_length), [&](const ScanLine::Bridge& bridge) {
-      for (int i = bridge.left + 1; i < bridge.right; ++i) {
-        const std::size_t pixel = first + static_cast<std::size_t>(i) * stride;
-        const double z = 1.0 / bridge.line(i);
-        if (scan_line.measuredAt(i, bridge.line) || hidden.z[pixel] >= z) {
-          continue;
-        }
-        const double u = static_cast<double>(pixel % cloud.width), v = static_cast<double>(pixel / cloud.width);
-        hidden.set(pixel, static_cast<float>((u - camera.cx) / camera.fx * z),
-                   static_cast<float>((v - camera.cy) / camera.fy * z), static_cast<float>(z));
-      }
-    });
-  };
-  constexpr std::size_t kStride = 2;  // every other row and column leave one pixel of four without a point
-  for (std::size_t v = 0; v < cloud.height; v += kStride) {
-    continueAlong(v * cloud.width, 1, cloud.width, camera.fx);
-  }
-  for (std::size_t u = 0; u < cloud.width; u += kStride) {
-    continueAlong(u, cloud.width, cloud.height, camera.fy);
-  }
-  return hidden;
+  ThreadTeam serial(1);
+  HiddenSurfaces surfaces;
+  surfaces.update(image, max_width, serial);
+  return surfaces.cloud();
 }
 
 }  // namespace grasp_affordances

@@ -60,7 +60,7 @@ constexpr std::array<Factors, kMomentCount> makeFactors()
 constexpr std::array<Factors, kMomentCount> kFactors = makeFactors();
 
 /// coordinate - middle of `count` points; zero, which adds nothing, beyond them.
-HWY_ATTR void subtract(const float* coordinate, std::size_t count, double middle, Tile& tile)
+HWY_ATTR HWY_INLINE void subtract(const float* coordinate, std::size_t count, double middle, Tile& tile)
 {
   const D d;
   const hn::Rebind<float, D> single;
@@ -75,7 +75,7 @@ HWY_ATTR void subtract(const float* coordinate, std::size_t count, double middle
   std::fill(tile.begin() + i, tile.end(), 0.0);
 }
 
-HWY_ATTR void multiply(const Tile& a, const Tile& b, Tile& product)
+HWY_ATTR HWY_INLINE void multiply(const Tile& a, const Tile& b, Tile& product)
 {
   const D d;
   for (std::size_t i = 0; i < kTile; i += hn::Lanes(d)) {
@@ -85,7 +85,7 @@ HWY_ATTR void multiply(const Tile& a, const Tile& b, Tile& product)
 
 /// Adds a tile's moments First + I, a few at a time, so that their sums stay in registers.
 template <std::size_t First, std::size_t... I>
-HWY_ATTR void addMoments(const Terms& terms, Sums& sums, std::index_sequence<I...>)
+HWY_ATTR HWY_INLINE void addMoments(const Terms& terms, Sums& sums, std::index_sequence<I...>)
 {
   const D d;
   const auto moment = [&](auto index, std::size_t i) HWY_ATTR {
@@ -105,11 +105,49 @@ HWY_ATTR void addMoments(const Terms& terms, Sums& sums, std::index_sequence<I..
   }
 }
 
-HWY_ATTR void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* moments)
+/// Adds the moments of degree 1 and 2 of `count` points, a multiple of kParts, without a detour through memory.
+HWY_ATTR HWY_INLINE void addSecondMoments(const float* const coordinates[3], std::size_t count, const double center[3],
+                                          Sums& sums)
+{
+  const D d;
+  const hn::Rebind<float, D> single;
+  const auto cx = hn::Set(d, center[0]), cy = hn::Set(d, center[1]), cz = hn::Set(d, center[2]);
+  for (std::size_t part = 0; part < kParts; part += hn::Lanes(d)) {
+    hn::Vec<D> sum[kTerms];
+    for (int m = 1; m < kTerms; ++m) {
+      sum[m] = hn::Load(d, &sums.parts[m][part]);
+    }
+    for (std::size_t i = part; i < count; i += kParts) {
+      const auto x = hn::Sub(hn::PromoteTo(d, hn::LoadU(single, coordinates[0] + i)), cx);
+      const auto y = hn::Sub(hn::PromoteTo(d, hn::LoadU(single, coordinates[1] + i)), cy);
+      const auto z = hn::Sub(hn::PromoteTo(d, hn::LoadU(single, coordinates[2] + i)), cz);
+      sum[momentIndex(1, 0, 0)] = hn::Add(sum[momentIndex(1, 0, 0)], x);
+      sum[momentIndex(0, 1, 0)] = hn::Add(sum[momentIndex(0, 1, 0)], y);
+      sum[momentIndex(0, 0, 1)] = hn::Add(sum[momentIndex(0, 0, 1)], z);
+      sum[momentIndex(2, 0, 0)] = hn::Add(sum[momentIndex(2, 0, 0)], hn::Mul(x, x));
+      sum[momentIndex(1, 1, 0)] = hn::Add(sum[momentIndex(1, 1, 0)], hn::Mul(x, y));
+      sum[momentIndex(0, 2, 0)] = hn::Add(sum[momentIndex(0, 2, 0)], hn::Mul(y, y));
+      sum[momentIndex(1, 0, 1)] = hn::Add(sum[momentIndex(1, 0, 1)], hn::Mul(x, z));
+      sum[momentIndex(0, 1, 1)] = hn::Add(sum[momentIndex(0, 1, 1)], hn::Mul(y, z));
+      sum[momentIndex(0, 0, 2)] = hn::Add(sum[momentIndex(0, 0, 2)], hn::Mul(z, z));
+    }
+    for (int m = 1; m < kTerms; ++m) {
+      hn::Store(sum[m], d, &sums.parts[m][part]);
+    }
+  }
+}
+
+HWY_ATTR void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* moments,
+                         int degree)
 {
   Terms terms;
   Sums sums{};
-  for (std::size_t begin = 0; begin < count; begin += kTile) {
+  std::size_t begin = 0;
+  if (degree == 2) {
+    begin = count - count % kParts;
+    addSecondMoments(coordinates, begin, center, sums);
+  }
+  for (; begin < count; begin += kTile) {
     const std::size_t size = std::min(kTile, count - begin);
     for (int axis = 0; axis < 3; ++axis) {
       subtract(coordinates[axis] + begin, size, center[axis], terms.of[1 + axis]);
@@ -118,12 +156,16 @@ HWY_ATTR void sumMoments(const float* const coordinates[3], std::size_t count, c
       multiply(terms.of[kFactors[m].first], terms.of[kFactors[m].second], terms.of[m]);
     }
     addMoments<1>(terms, sums, std::make_index_sequence<9>());
-    addMoments<10>(terms, sums, std::make_index_sequence<10>());
-    addMoments<20>(terms, sums, std::make_index_sequence<8>());
-    addMoments<28>(terms, sums, std::make_index_sequence<7>());
+    if (degree > 2) {
+      addMoments<10>(terms, sums, std::make_index_sequence<10>());
+    }
+    if (degree > 3) {
+      addMoments<20>(terms, sums, std::make_index_sequence<8>());
+      addMoments<28>(terms, sums, std::make_index_sequence<7>());
+    }
   }
   moments[0] = static_cast<double>(count);
-  for (int m = 1; m < kMomentCount; ++m) {
+  for (int m = 1; m < momentCount(degree); ++m) {
     const auto& part = sums.parts[m];
     moments[m] = ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
   }
@@ -139,9 +181,10 @@ namespace grasp_affordances
 
 HWY_EXPORT(sumMoments);
 
-void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* moments)
+void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* moments,
+                int degree)
 {
-  HWY_DYNAMIC_DISPATCH(sumMoments)(coordinates, count, center, moments);
+  HWY_DYNAMIC_DISPATCH(sumMoments)(coordinates, count, center, moments, degree);
 }
 
 }  // namespace grasp_affordances

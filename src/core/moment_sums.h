@@ -16,9 +16,16 @@ constexpr int momentIndex(int i, int j, int k)
 }
 static_assert(momentIndex(0, 0, 4) == kMomentCount - 1, "moments are numbered without gaps");
 
-/// Sums over `count` points of all monomials of degree at most 4 in their coordinates from a centre, in double
-/// precision. @param coordinates of the points, three arrays. @param center its three coordinates.
-/// @param sums kMomentCount of them, by momentIndex.
-void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* sums);
+/// Number of moments up to a degree.
+constexpr int momentCount(int degree)
+{
+  return momentIndex(0, 0, degree) + 1;
+}
+
+/// Sums over `count` points of all monomials of degree at most `degree` (2, 3 or 4) in their coordinates from a centre,
+/// in double precision; the same for every degree. @param coordinates of the points, three arrays. @param center its
+/// three coordinates. @param sums momentCount(degree) of them, by momentIndex.
+void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* sums,
+                int degree = 4);
 
 }  // namespace grasp_affordances

@@ -1,5 +1,6 @@
 #include "grasp_affordances/neighborhoods.h"
 
+#include "core/nearest.h"
 #include "core/pixel_rows.h"
 #include "core/window_search.h"
 
@@ -120,30 +121,16 @@ void Neighborhood::append(const PixelRows& rows)
 
 void Neighborhood::keepNearest(std::size_t k)
 {
-  order_.clear();
-  for (std::size_t i = 0; i < size_; ++i) {
-    order_.emplace_back(squaredLength(x_[i] - center.x(), y_[i] - center.y(), z_[i] - center.z()), index_[i]);
-  }
   if (k == 0) {
     radius = 0.0F;
     size_ = 0;
     return;
   }
-  std::nth_element(order_.begin(), order_.begin() + (k - 1), order_.end());
-  const std::pair<float, std::uint32_t> last = order_[k - 1];
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const float squared = squaredLength(x_[i] - center.x(), y_[i] - center.y(), z_[i] - center.z());
-    if (std::make_pair(squared, index_[i]) <= last) {
-      x_[kept] = x_[i];
-      y_[kept] = y_[i];
-      z_[kept] = z_[i];
-      index_[kept] = index_[i];
-      ++kept;
-    }
-  }
-  size_ = kept;
-  radius = std::sqrt(last.first);
+  squared_distances_.resize(std::max(squared_distances_.size(), size_ + kGatherSlack));
+  const float squared = grasp_affordances::keepNearest({x_.data(), y_.data(), z_.data(), index_.data()}, size_,
+                                                       center.data(), k, squared_distances_.data());
+  size_ = k;
+  radius = std::sqrt(squared);
 }
 
 void WindowSearch::withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const

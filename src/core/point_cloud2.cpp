@@ -1,5 +1,7 @@
 #include "grasp_affordances/point_cloud2.h"
 
+#include "core/measured_kernels.h"
+
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -59,31 +61,28 @@ void check(const PointCloud2Layout& layout)
   }
 }
 
+/// Copies a row's coordinate. A double that no float represents becomes NaN; what else is not measured stays.
 template <typename T>
-float read(const std::uint8_t* address)
+void copyCoordinate(const std::uint8_t* address, std::size_t step, std::size_t count, float* to)
 {
-  T value;
-  std::memcpy(&value, address, sizeof(T));
-  const bool representable = std::abs(value) <= static_cast<T>(std::numeric_limits<float>::max());
-  return representable ? static_cast<float>(value) : std::nanf("");
-}
-
-float readEither(const std::uint8_t* point, const Coordinate& coordinate)
-{
-  const std::uint8_t* address = point + coordinate.offset;
-  return coordinate.datatype == kFloat32 ? read<float>(address) : read<double>(address);
-}
-
-template <typename ReadCoordinate>
-void copyPoints(const PointCloud2Layout& layout, Cloud& cloud, ReadCoordinate&& readCoordinate)
-{
-  std::size_t i = 0;
-  for (std::uint32_t row = 0; row < layout.height; ++row) {
-    const std::uint8_t* point = layout.data + std::size_t{row} * layout.row_step;
-    for (std::uint32_t column = 0; column < layout.width; ++column, ++i, point += layout.point_step) {
-      cloud.set(i, readCoordinate(point, layout.x), readCoordinate(point, layout.y), readCoordinate(point, layout.z));
-    }
+  for (std::size_t i = 0; i < count; ++i, address += step) {
+    T value;
+    std::memcpy(&value, address, sizeof(T));
+    const bool representable = std::abs(value) <= static_cast<T>(std::numeric_limits<float>::max());
+    to[i] = sizeof(T) == sizeof(float) || representable ? static_cast<float>(value) : std::nanf("");
   }
+}
+
+void copyRow(const std::uint8_t* row, const PointCloud2Layout& layout, const Coordinate& coordinate, float* to)
+{
+  const auto copy = coordinate.datatype == kFloat32 ? copyCoordinate<float> : copyCoordinate<double>;
+  copy(row + coordinate.offset, layout.point_step, layout.width, to);
+}
+
+bool areConsecutiveFloats(const PointCloud2Layout& layout)
+{
+  return layout.x.datatype == kFloat32 && layout.y.datatype == kFloat32 && layout.z.datatype == kFloat32 &&
+         layout.y.offset == layout.x.offset + sizeof(float) && layout.z.offset == layout.y.offset + sizeof(float);
 }
 
 }  // namespace
@@ -101,11 +100,19 @@ void cloudFromLayout(const PointCloud2Layout& layout, Cloud& cloud)
   cloud.x.resize(points);
   cloud.y.resize(points);
   cloud.z.resize(points);
-  if (layout.x.datatype == kFloat32 && layout.y.datatype == kFloat32 && layout.z.datatype == kFloat32) {
-    copyPoints(layout, cloud,
-               [](const std::uint8_t* point, const Coordinate& c) { return read<float>(point + c.offset); });
-  } else {
-    copyPoints(layout, cloud, readEither);
+  const bool consecutive = areConsecutiveFloats(layout);
+  for (std::size_t row = 0; row < layout.height; ++row) {
+    const std::uint8_t* data = layout.data + row * layout.row_step;
+    float *const x = &cloud.x[row * layout.width], *const y = &cloud.y[row * layout.width],
+                 *const z = &cloud.z[row * layout.width];
+    if (consecutive) {
+      splitPoints(data + layout.x.offset, layout.point_step, layout.width, x, y, z);
+    } else {
+      copyRow(data, layout, layout.x, x);
+      copyRow(data, layout, layout.y, y);
+      copyRow(data, layout, layout.z, z);
+    }
+    blankUnmeasured(x, y, z, layout.width);
   }
 }
 

@@ -1,58 +1,34 @@
 #include "core/prepared_cloud.h"
 
-#include "grasp_affordances/hidden_surfaces.h"
-#include "grasp_affordances/sampling.h"
+#include "core/measured_kernels.h"
 
 #include <algorithm>
 
 namespace grasp_affordances
 {
-namespace
-{
-
-void findMeasured(const Cloud& cloud, std::vector<std::uint32_t>& measured)
-{
-  measured.clear();
-  measured.reserve(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.measured(i)) {
-      measured.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-}
-
-bool allCoincide(const Cloud& cloud, const std::vector<std::uint32_t>& points)
-{
-  const Eigen::Vector3f first = cloud.point(points.front());
-  return std::all_of(points.begin(), points.end(), [&](std::uint32_t i) { return cloud.point(i) == first; });
-}
-
-}  // namespace
 
 void PreparedCloud::update(const Cloud& new_cloud, const Config& config, ThreadTeam& team)
 {
   cloud = &new_cloud;
+  image.reset();
   search = nullptr;
   sensor.setZero();
-  image.reset();
-  hidden_search.reset();
-  candidates.clear();
   warnings.clear();
-  findMeasured(*cloud, measured);
+  listMeasured();
   if (measured.empty()) {
     warnings.emplace_back(cloud->size() == 0 ? "nothing to localize: the cloud is empty"
                                              : "nothing to localize: all points are NaN, zero or infinite");
     return;
   }
-  if (allCoincide(*cloud, measured)) {
+  if (allCoincide()) {
     warnings.emplace_back("nothing to localize: all measured points coincide");
     return;
   }
 
   std::string warning;
-  image = RangeImage::create(*cloud, warning);
+  image = RangeImage::create(*cloud, warning, &team);
   if (image) {
-    updateOrganized(config);
+    search = &window_search_.emplace(*image, measured.size());
   } else {
     sensor = cloud->sensor_origin.cast<double>();
     tree_search_ = makeTreeSearch(*cloud);
@@ -67,24 +43,33 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, ThreadT
   if (!warning.empty()) {
     warnings.push_back(warning);
   }
+  if (image && config.sampling.screen) {
+    screen.update(*image, config.hand, static_cast<std::size_t>(config.sampling.samples), config.sampling.seed, team);
+  } else {
+    screen.clear();
+  }
+  hidden_search.reset();
+  if (image && config.shell.continue_surfaces) {
+    constexpr double kWidestBridge = 8.0;  // capture radii: what a hand can grasp, and the shadow beside it
+    hidden.update(*image, kWidestBridge * config.hand.capture_radius, team);
+    hidden_image = image->withCloud(hidden.cloud());
+    hidden_search.emplace(*hidden_image, 0);
+  }
   if (config.estimation.estimator == Estimator::normals) {
-    estimateNormals(config.estimation.normals_radius, team);
+    estimateNormals(config, team);
   }
 }
 
-void PreparedCloud::updateOrganized(const Config& config)
+void PreparedCloud::listMeasured()
 {
-  search = &window_search_.emplace(*image, measured.size());
-  if (config.sampling.screen) {
-    candidates =
-        screenPoints(*image, config.hand, static_cast<std::size_t>(config.sampling.samples), config.sampling.seed);
-  }
-  if (config.shell.continue_surfaces) {
-    constexpr double kWidestBridge = 8.0;  // capture radii: what a hand can grasp, and the shadow beside it
-    hidden = continueSurfaces(*image, kWidestBridge * config.hand.capture_radius);
-    hidden_image = image->withCloud(hidden);
-    hidden_search.emplace(*hidden_image, 0);
-  }
+  measured.resize(countMeasured(cloud->x.data(), cloud->size()));
+  grasp_affordances::listMeasured(cloud->x.data(), cloud->size(), measured.data(), measured.size());
+}
+
+bool PreparedCloud::allCoincide() const
+{
+  const Eigen::Vector3f first = cloud->point(measured.front());
+  return std::all_of(measured.begin(), measured.end(), [&](std::uint32_t i) { return cloud->point(i) == first; });
 }
 
 void PreparedCloud::findNeighborhood(std::uint32_t point, const Config& config, Neighborhood& neighborhood) const
@@ -98,17 +83,17 @@ void PreparedCloud::findNeighborhood(std::uint32_t point, const Config& config, 
   }
 }
 
-void PreparedCloud::estimateNormals(double radius, ThreadTeam& team)
+/// Those of all points in the neighborhoods of all samples.
+void PreparedCloud::estimateNormals(const Config& config, ThreadTeam& team)
 {
   normals.reset(cloud->size());
   neighborhoods_.resize(team.size());
-  team.forEach(measured.size(), [&](std::size_t i, std::size_t member) {
-    const std::uint32_t point = measured[i];
-    search->withinRadius(cloud->point(point), static_cast<float>(radius), neighborhoods_[member]);
-    if (const auto normal = planeNormal(neighborhoods_[member])) {
-      normals.set(point, *normal);
-    }
+  team.forEach(static_cast<std::size_t>(config.sampling.samples), [&](std::size_t i, std::size_t member) {
+    findNeighborhood(samplePoint(config, i), config, neighborhoods_[member]);
+    normals.require(neighborhoods_[member]);
   });
+  const bool sparse = config.estimation.normals_mode == NormalsMode::sparse;
+  normals.compute(*cloud, *search, config.estimation.normals_radius, sparse ? SurfaceNormals::kSparseStride : 1, team);
 }
 
 }  // namespace grasp_affordances

@@ -3,9 +3,12 @@
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/neighborhoods.h"
-#include "grasp_affordances/normals.h"
 #include "grasp_affordances/range_image.h"
+#include "grasp_affordances/sampling.h"
 
+#include "core/hidden_surfaces.h"
+#include "core/point_screen.h"
+#include "core/surface_normals.h"
 #include "core/thread_team.h"
 #include "core/window_search.h"
 
@@ -35,24 +38,31 @@ public:
   /// The neighborhood of a point, given by its index in the cloud. Safe to call from many threads.
   void findNeighborhood(std::uint32_t point, const Config& config, Neighborhood& neighborhood) const;
 
+  /// The i-th sample's point, by its index in the cloud.
+  std::uint32_t samplePoint(const Config& config, std::uint64_t i) const
+  {
+    return grasp_affordances::samplePoint(measured, screen.points(), config.sampling, i);
+  }
+
   /// Distance (m) between neighboring points at a point of the cloud; 0 without a range image.
   double spacing(const Eigen::Vector3d& point) const { return image ? image->spacing(point.z()) : 0.0; }
 
   const Cloud* cloud = nullptr;
   std::vector<std::uint32_t> measured;  // indices of the measured points
   std::optional<RangeImage> image;
-  std::vector<std::uint32_t> candidates;       // indices of the points that are sampled first
+  PointScreen screen;
   const NeighborhoodSearch* search = nullptr;  // null where there is nothing to localize
-  Cloud hidden;                                // surfaces that go on behind what the sensor saw
+  HiddenSurfaces hidden;                       // that go on behind what the sensor saw; with an image only
   std::optional<RangeImage> hidden_image;
   std::optional<WindowSearch> hidden_search;         // none where no hidden surfaces are asked for
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // m, in the cloud's frame
-  Normals normals;                                   // only for the Normals variation
+  SurfaceNormals normals;                            // only for the Normals variation
   std::vector<std::string> warnings;
 
 private:
-  void updateOrganized(const Config& config);
-  void estimateNormals(double radius, ThreadTeam& team);
+  void listMeasured();
+  bool allCoincide() const;
+  void estimateNormals(const Config& config, ThreadTeam& team);
 
   std::optional<WindowSearch> window_search_;
   std::unique_ptr<NeighborhoodSearch> tree_search_;

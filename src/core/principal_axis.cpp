@@ -1,8 +1,11 @@
 #include "grasp_affordances/principal_axis.h"
 
 #include "core/covariance.h"
+#include "core/measured_kernels.h"
+#include "core/moment_sums.h"
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 
 namespace grasp_affordances
 {
@@ -12,14 +15,27 @@ std::optional<Eigen::Vector3d> pointsAxis(const Neighborhood& neighborhood)
   return distinctEigenvector(covariance(neighborhood), Extreme::largest);
 }
 
+std::optional<Eigen::Vector3d> pointsAxis(const Moments& moments)
+{
+  const double n = moments.sum(0, 0, 0);
+  const Eigen::Vector3d mean = Eigen::Vector3d(moments.sum(1, 0, 0), moments.sum(0, 1, 0), moments.sum(0, 0, 1)) / n;
+  return distinctEigenvector(secondMoments(moments.sums().data()) / n - mean * mean.transpose(), Extreme::largest);
+}
+
 std::optional<Eigen::Vector3d> normalsAxis(const Neighborhood& neighborhood, const Normals& normals)
 {
+  constexpr std::size_t kBatch = 256;
+  std::array<std::array<float, kBatch>, 3> batch;
+  const float* const all[] = {normals.x.data(), normals.y.data(), normals.z.data()};
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < neighborhood.size(); ++i) {
-    const Eigen::Vector3d normal = normals.normal(neighborhood.index()[i]).cast<double>();
-    if (!std::isnan(normal.x())) {
-      scatter += normal * normal.transpose();
-    }
+  for (std::size_t begin = 0; begin < neighborhood.size(); begin += kBatch) {
+    float* const gathered[] = {batch[0].data(), batch[1].data(), batch[2].data()};
+    const std::size_t count =
+        gatherMeasured(all, neighborhood.index() + begin, std::min(kBatch, neighborhood.size() - begin), gathered);
+    std::array<double, momentCount(2)> sums;
+    sumMoments(gathered, count, origin.data(), sums.data(), 2);
+    scatter += secondMoments(sums.data());
   }
   return distinctEigenvector(scatter, Extreme::smallest);
 }

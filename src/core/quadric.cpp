@@ -137,16 +137,16 @@ std::optional<TaubinFit> solveFully(const QuadricFits& fits, std::size_t i, cons
 
 }  // namespace
 
-Moments::Moments(const Neighborhood& neighborhood)
+Moments::Moments(const Neighborhood& neighborhood, int degree)
 {
   const float* const coordinates[3] = {neighborhood.x(), neighborhood.y(), neighborhood.z()};
   const double center[3] = {neighborhood.center.x(), neighborhood.center.y(), neighborhood.center.z()};
-  sumMoments(coordinates, neighborhood.size(), center, sums_.data());
+  sumMoments(coordinates, neighborhood.size(), center, sums_.data(), degree);
   const double scale = 1.0 / neighborhood.radius;
   double factor = 1.0;
-  for (int degree = 1, m = 1; degree <= 4; ++degree) {
+  for (int d = 1, m = 1; d <= degree; ++d) {
     factor *= scale;
-    for (const int end = momentIndex(0, 0, degree) + 1; m < end; ++m) {
+    for (; m < momentCount(d); ++m) {
       sums_[m] *= factor;
     }
   }

@@ -100,14 +100,17 @@ HWY_ATTR void scatterOf(const std::array<Real, kMomentCount>& mean, Scatter& sca
   }
 }
 
-/// Cholesky factor of a symmetric matrix, and the smallest pivot.
+// The smallest pivot is the square of twice the RMS thickness of the points, relative to the radius.
+constexpr double kSmallestPivot = 1e-10;
+
+/// Cholesky factor of a symmetric matrix.
 struct Cholesky
 {
   Matrix<kQuadratic, kQuadratic> L;  // below the diagonal
   Vector<kQuadratic> inverse_diagonal;
-  Real smallest_pivot = std::numeric_limits<double>::infinity();
+  Condition regular;  // all pivots are large enough
 
-  HWY_ATTR explicit Cholesky(const Matrix<kQuadratic, kQuadratic>& symmetric)
+  HWY_ATTR explicit Cholesky(const Matrix<kQuadratic, kQuadratic>& symmetric) : regular(Real(0.0) < Real(1.0))
   {
     UNROLLED
     for (int j = 0; j < kQuadratic; ++j) {
@@ -119,7 +122,7 @@ struct Cholesky
           sum -= L[i][k] * L[j][k];
         }
         if (i == j) {
-          smallest_pivot = smaller(sum, smallest_pivot);
+          regular = hn::And(regular, Real(kSmallestPivot) < sum);  // false for NaN
           inverse_diagonal[j] = Real(1.0) / squareRoot(sum);
         } else {
           L[i][j] = sum * inverse_diagonal[j];
@@ -422,10 +425,8 @@ HWY_ATTR void fitLanes(QuadricFits& fits, std::size_t begin)
   Vector<kUnknowns> y = eigenvector(T, smallest.value);
   T.transformBack(y);
 
-  // The smallest pivot is the square of twice the RMS thickness, relative to the radius.
-  constexpr double kSmallestPivot = 1e-10, kSeparation = 1e-14;
+  constexpr double kSeparation = 1e-14;
   const Real below = eigenvaluesBelow(T, smallest.value + Real(kSeparation) * T.trace);
-  const Condition flat = hn::Not(Real(kSmallestPivot) < cholesky.smallest_pivot);
   const Condition twin = Real(1.5) < below;
   const Condition found = hn::And(smallest.converged, Real(0.5) < below);
 
@@ -454,7 +455,7 @@ HWY_ATTR void fitLanes(QuadricFits& fits, std::size_t begin)
 
   alignas(64) PerFit status;
   const Real settled = choose(found, choose(twin, Real(1.0), Real(0.0)), Real(2.0));
-  hn::Store(choose(flat, Real(1.0), settled).lanes, d, status.data());
+  hn::Store(choose(cholesky.regular, settled, Real(1.0)).lanes, d, status.data());
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
     fits.status[begin + lane] = static_cast<FitStatus>(static_cast<int>(status[lane]));
   }

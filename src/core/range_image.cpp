@@ -1,6 +1,10 @@
 #include "grasp_affordances/range_image.h"
 
+#include "core/ray_sums.h"
+#include "core/thread_team.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -10,53 +14,39 @@ namespace grasp_affordances
 namespace
 {
 
-/// Calls visit(u, v, x/z, y/z) for every measured point; false where a point lies behind the sensor.
-template <typename Visitor>
-bool visitRays(const Cloud& cloud, Visitor&& visit)
+/// Focal length and principal point of the pixels' regression on the slopes; empty for slopes that do not differ.
+std::optional<std::pair<double, double>> fitLine(double points, double slope, double slope2, double pixel,
+                                                 double product)
 {
-  std::size_t i = 0;
-  for (std::uint32_t v = 0; v < cloud.height; ++v) {
-    for (std::uint32_t u = 0; u < cloud.width; ++u, ++i) {
-      const double z = cloud.z[i];
-      if (std::isnan(z)) {
-        continue;
-      }
-      if (!(z > 0.0)) {
-        return false;
-      }
-      visit(u, v, cloud.x[i] / z, cloud.y[i] / z);
-    }
+  const double variance = slope2 * points - slope * slope;
+  if (!(variance > 1e-12 * slope2 * points)) {
+    return std::nullopt;
   }
-  return true;
+  const double focal_length = (product * points - slope * pixel) / variance;
+  return std::make_pair(focal_length, (pixel - focal_length * slope) / points);
 }
 
-/// Simple linear regression of pixel coordinates on ray slopes.
-class LineFit
+// Sums are taken over blocks of rows and then over the blocks, the same ones for any number of threads.
+constexpr std::size_t kBlocks = 64;
+
+/// Calls task(rows, block) for every block of the cloud's rows.
+template <typename Task>
+void forEachBlock(const Cloud& cloud, ThreadTeam* team, Task&& task)
 {
-public:
-  void add(double slope, double pixel)
-  {
-    ++n_;
-    slope_ += slope;
-    pixel_ += pixel;
-    slope2_ += slope * slope;
-    product_ += slope * pixel;
+  const auto run = [&](std::size_t block, std::size_t) {
+    const std::size_t height = cloud.height;
+    task(CloudRows{cloud.x.data(), cloud.y.data(), cloud.z.data(), cloud.width, height * block / kBlocks,
+                   height * (block + 1) / kBlocks},
+         block);
+  };
+  if (team != nullptr) {
+    team->forEach(kBlocks, run);
+    return;
   }
-
-  /// Focal length and principal point; empty for slopes that do not differ.
-  std::optional<std::pair<double, double>> solve() const
-  {
-    const double variance = slope2_ * n_ - slope_ * slope_;
-    if (!(variance > 1e-12 * slope2_ * n_)) {
-      return std::nullopt;
-    }
-    const double focal_length = (product_ * n_ - slope_ * pixel_) / variance;
-    return std::make_pair(focal_length, (pixel_ - focal_length * slope_) / n_);
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    run(block, 0);
   }
-
-private:
-  double n_ = 0.0, slope_ = 0.0, pixel_ = 0.0, slope2_ = 0.0, product_ = 0.0;
-};
+}
 
 /// Slopes [min, max] of the rays through the origin that touch a circle in the plane (lateral, z); the origin must be
 /// outside it and z above the radius.
@@ -88,37 +78,45 @@ std::string residualText(double residual)
 
 }  // namespace
 
-std::optional<ReprojectionFit> checkIntrinsics(const Cloud& cloud, const PinholeIntrinsics& intrinsics)
+std::optional<ReprojectionFit> checkIntrinsics(const Cloud& cloud, const PinholeIntrinsics& intrinsics,
+                                               ThreadTeam* team)
 {
   const Eigen::Array4d values(intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy);
   if (!values.isFinite().all()) {
     return std::nullopt;
   }
-  ReprojectionFit fit{intrinsics, 0.0};
-  const bool in_front = visitRays(cloud, [&](double u, double v, double slope_x, double slope_y) {
-    const double du = std::abs(intrinsics.fx * slope_x + intrinsics.cx - u);
-    const double dv = std::abs(intrinsics.fy * slope_y + intrinsics.cy - v);
-    fit.max_residual = std::max(fit.max_residual, std::max(du, dv));
+  const double f[] = {intrinsics.fx, intrinsics.fy}, c[] = {intrinsics.cx, intrinsics.cy};
+  std::array<double, kBlocks> residuals;
+  std::array<bool, kBlocks> in_front;
+  forEachBlock(cloud, team, [&](const CloudRows& rows, std::size_t block) {
+    in_front[block] = maxResidual(rows, f, c, residuals[block]);
   });
-  return in_front ? std::optional<ReprojectionFit>(fit) : std::nullopt;
-}
-
-std::optional<ReprojectionFit> estimateIntrinsics(const Cloud& cloud)
-{
-  LineFit columns, rows;
-  const bool in_front = visitRays(cloud, [&](double u, double v, double slope_x, double slope_y) {
-    columns.add(slope_x, u);
-    rows.add(slope_y, v);
-  });
-  const auto column_fit = columns.solve();
-  const auto row_fit = rows.solve();
-  if (!in_front || !column_fit || !row_fit || column_fit->first == 0.0 || row_fit->first == 0.0) {
+  if (std::find(in_front.begin(), in_front.end(), false) != in_front.end()) {
     return std::nullopt;
   }
-  return checkIntrinsics(cloud, {column_fit->first, row_fit->first, column_fit->second, row_fit->second});
+  return ReprojectionFit{intrinsics, *std::max_element(residuals.begin(), residuals.end())};
 }
 
-std::optional<RangeImage> RangeImage::create(const Cloud& cloud, std::string& warning)
+std::optional<ReprojectionFit> estimateIntrinsics(const Cloud& cloud, ThreadTeam* team)
+{
+  std::array<RaySums, kBlocks> sums;
+  std::array<bool, kBlocks> in_front;
+  forEachBlock(cloud, team,
+               [&](const CloudRows& rows, std::size_t block) { in_front[block] = sumRays(rows, sums[block]); });
+  RaySums sum{};
+  for (const RaySums& part : sums) {
+    sum += part;
+  }
+  const auto column_fit = fitLine(sum.points, sum.slope_x, sum.slope_x2, sum.u, sum.slope_x_u);
+  const auto row_fit = fitLine(sum.points, sum.slope_y, sum.slope_y2, sum.v, sum.slope_y_v);
+  if (std::find(in_front.begin(), in_front.end(), false) != in_front.end() || !column_fit || !row_fit ||
+      column_fit->first == 0.0 || row_fit->first == 0.0) {
+    return std::nullopt;
+  }
+  return checkIntrinsics(cloud, {column_fit->first, row_fit->first, column_fit->second, row_fit->second}, team);
+}
+
+std::optional<RangeImage> RangeImage::create(const Cloud& cloud, std::string& warning, ThreadTeam* team)
 {
   if (!cloud.organized()) {
     warning = "the cloud is not organized";
@@ -126,7 +124,7 @@ std::optional<RangeImage> RangeImage::create(const Cloud& cloud, std::string& wa
   }
   std::string given_warning;
   if (cloud.intrinsics) {
-    const auto given = checkIntrinsics(cloud, *cloud.intrinsics);
+    const auto given = checkIntrinsics(cloud, *cloud.intrinsics, team);
     if (given && given->max_residual <= kMaxResidual) {
       return RangeImage(cloud, *given);
     }
@@ -135,7 +133,7 @@ std::optional<RangeImage> RangeImage::create(const Cloud& cloud, std::string& wa
         (given ? "miss the cloud's pixels by up to " + residualText(given->max_residual) : "do not fit the cloud") +
         "; they were estimated from the cloud";
   }
-  const auto fit = estimateIntrinsics(cloud);
+  const auto fit = estimateIntrinsics(cloud, team);
   if (!fit) {
     warning = "the cloud's points determine no projection onto its pixels (too few, or some behind the sensor)";
     return std::nullopt;

@@ -4,7 +4,6 @@
 #include "grasp_affordances/occlusion.h"
 #include "grasp_affordances/principal_axis.h"
 #include "grasp_affordances/random.h"
-#include "grasp_affordances/sampling.h"
 
 #include "core/stopwatch.h"
 
@@ -49,7 +48,7 @@ void SampleBlock::examine(const PreparedCloud& prepared, const Config& config, s
   for (std::uint64_t i = begin; i < end; ++i) {
     Sample& sample = samples_[i - begin];
     sample.number = i;
-    sample.point = samplePoint(prepared.measured, prepared.candidates, config.sampling, i);
+    sample.point = prepared.samplePoint(config, i);
     sample.result = &results[i - begin];
     sample.result->outcome = Outcome::shell;
     left_[left_count_++] = &sample;
@@ -59,7 +58,7 @@ void SampleBlock::examine(const PreparedCloud& prepared, const Config& config, s
   times.neighborhoods += stopwatch.lap();
   filterOccluded(prepared, config);
   times.occlusion += stopwatch.lap();
-  sumMoments();
+  sumMoments(config);
   if (config.estimation.estimator == Estimator::taubin) {
     estimateCurvatureAxes(prepared, config);
   } else {
@@ -107,13 +106,14 @@ void SampleBlock::filterOccluded(const PreparedCloud& prepared, const Config& co
   });
 }
 
-void SampleBlock::sumMoments()
+void SampleBlock::sumMoments(const Config& config)
 {
-  forEachLeft([](Sample& sample) {
+  const int degree = config.estimation.estimator == Estimator::taubin ? 4 : 3;  // 3: for the circle
+  forEachLeft([degree](Sample& sample) {
     if (!(sample.neighborhood.radius > 0.0F)) {
       return std::optional<Outcome>(Outcome::degenerate);
     }
-    sample.moments = Moments(sample.neighborhood);
+    sample.moments = Moments(sample.neighborhood, degree);
     return kGoesOn;
   });
 }
@@ -153,8 +153,8 @@ void SampleBlock::estimatePrincipalAxes(const PreparedCloud& prepared, const Con
 {
   forEachLeft([&](Sample& sample) -> std::optional<Outcome> {
     const auto axis = config.estimation.estimator == Estimator::pca
-                          ? pointsAxis(sample.neighborhood)
-                          : normalsAxis(sample.neighborhood, prepared.normals);
+                          ? pointsAxis(sample.moments)
+                          : normalsAxis(sample.neighborhood, prepared.normals.normals());
     if (!axis) {
       return Outcome::degenerate;
     }

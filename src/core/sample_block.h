@@ -57,7 +57,7 @@ private:
 
   void findNeighborhoods(const PreparedCloud& prepared, const Config& config);
   void filterOccluded(const PreparedCloud& prepared, const Config& config);
-  void sumMoments();
+  void sumMoments(const Config& config);
   void estimateCurvatureAxes(const PreparedCloud& prepared, const Config& config);
   void estimatePrincipalAxes(const PreparedCloud& prepared, const Config& config);
   void fitCylinders(const PreparedCloud& prepared, const Config& config);

@@ -1,5 +1,6 @@
 #include "grasp_affordances/localizer.h"
 
+#include "core/instruction_sets.h"
 #include "evaluation/judge.h"
 #include "simulation/tableware.h"
 #include "support/points.h"
@@ -88,6 +89,25 @@ TEST_P(EveryVariation, FindsTheSameWithAnyNumberOfThreads)
       }
     }
   }
+}
+
+TEST_P(EveryVariation, FindsTheSameWithEveryInstructionSet)
+{
+  const Cloud cloud = captureScene("cleaning2", 1).cloud;
+  Config config = this->config();
+  config.sampling.samples = 1000;
+  Localizer localizer(config);
+  const Localization reference = localizer.localize(cloud);
+  ASSERT_GT(reference.shells.size(), 0U);
+  for (const std::string& name : instructionSets()) {
+    useInstructionSet(name);
+    const Localization result = localizer.localize(cloud);
+    ASSERT_EQ(result.counts, reference.counts) << name;
+    for (std::size_t i = 0; i < result.shells.size(); ++i) {
+      ASSERT_TRUE(same(result.shells[i], reference.shells[i])) << name;
+    }
+  }
+  useInstructionSet("");
 }
 
 TEST_P(EveryVariation, AnswersDegenerateClouds)

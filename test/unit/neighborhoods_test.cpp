@@ -1,5 +1,6 @@
 #include "grasp_affordances/neighborhoods.h"
 
+#include "core/thread_team.h"
 #include "io/bag.h"
 #include "io/pcd.h"
 #include "support/points.h"
@@ -196,6 +197,23 @@ TEST(RangeImage, EstimatesTheIntrinsics)
   EXPECT_NEAR(fit->intrinsics.cx, cloud.intrinsics->cx, 1e-2);
   EXPECT_NEAR(fit->intrinsics.cy, cloud.intrinsics->cy, 1e-2);
   EXPECT_LT(fit->max_residual, 1e-2);
+}
+
+TEST(RangeImage, IsTheSameForAnyTeam)
+{
+  Cloud cloud = captureScene("table", 1).cloud;
+  cloud.intrinsics.reset();
+  ThreadTeam three(3);
+  const auto alone = estimateIntrinsics(cloud), shared = estimateIntrinsics(cloud, &three);
+  ASSERT_TRUE(alone && shared);
+  EXPECT_EQ(alone->intrinsics.fx, shared->intrinsics.fx);
+  EXPECT_EQ(alone->intrinsics.fy, shared->intrinsics.fy);
+  EXPECT_EQ(alone->intrinsics.cx, shared->intrinsics.cx);
+  EXPECT_EQ(alone->intrinsics.cy, shared->intrinsics.cy);
+  EXPECT_EQ(alone->max_residual, shared->max_residual);
+  cloud.z.back() = -1.0F;
+  EXPECT_FALSE(estimateIntrinsics(cloud, &three));
+  EXPECT_FALSE(checkIntrinsics(cloud, alone->intrinsics, &three));
 }
 
 TEST(RangeImage, ReplacesIntrinsicsThatDoNotFit)

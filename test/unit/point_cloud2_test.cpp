@@ -117,6 +117,40 @@ TYPED_TEST(PointCloud2Test, storesUnmeasuredPointsAsNan)
   EXPECT_EQ(cloud.point(5), Eigen::Vector3f(0.1F, 0.2F, -0.3F));
 }
 
+/// The usual layouts: x, y, z in a row, at the start of points of 12, 16, 20 and 32 bytes; also the last in the data.
+TYPED_TEST(PointCloud2Test, readsConsecutiveFloats)
+{
+  for (const std::uint32_t step : {12U, 16U, 20U, 32U}) {
+    for (const std::uint32_t padding : {0U, 5U}) {
+      auto message = makeMessage<TypeParam>();
+      const char* names[] = {"x", "y", "z"};
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        message.fields[i].name = names[i];
+        message.fields[i].offset = step - 12 + 4 * i;
+      }
+      message.width = 37;
+      message.height = 3;
+      message.point_step = step;
+      message.row_step = 37 * step + padding;
+      message.data.assign(std::size_t{3} * message.row_step, 0xEE);
+      for (std::size_t i = 0; i < 111; ++i) {
+        const float point[] = {1.0F + i, i % 7 == 0 ? kNan : 2.0F, 0.25F * i};
+        std::memcpy(&message.data[i / 37 * message.row_step + i % 37 * step + step - 12], point, sizeof(point));
+      }
+      Cloud cloud;
+      cloudFromPointCloud2(message, cloud);
+      ASSERT_EQ(cloud.size(), 111U);
+      for (std::size_t i = 0; i < 111; ++i) {
+        if (i % 7 == 0) {
+          EXPECT_TRUE(cloud.point(i).array().isNaN().all()) << "point " << i << ", step " << step;
+        } else {
+          EXPECT_EQ(cloud.point(i), Eigen::Vector3f(1.0F + i, 2.0F, 0.25F * i)) << "point " << i << ", step " << step;
+        }
+      }
+    }
+  }
+}
+
 TYPED_TEST(PointCloud2Test, cloudWithoutPointsIsEmpty)
 {
   for (const auto& [width, height] : {std::pair{0U, 0U}, {0U, 5U}, {4000000000U, 0U}}) {

@@ -1,8 +1,13 @@
 #include "grasp_affordances/principal_axis.h"
 
+#include "core/covariance.h"
 #include "support/points.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <limits>
 
 namespace grasp_affordances::test
 {
@@ -57,6 +62,31 @@ TEST(PlaneNormal, IsExactOnAPlane)
   const auto normal = planeNormal(neighborhoodOf(points, Eigen::Vector3d::Zero(), 0.03));
   ASSERT_TRUE(normal);
   EXPECT_LT(lineAngle(*normal, rotation.col(2)), 1e-5);
+}
+
+TEST(DistinctEigenvector, AgreesWithTheFullDecomposition)
+{
+  Random random(4);
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Matrix3d rotation = random.rotation();
+    const double scale = std::pow(10.0, random.uniform(-8, 4)), ratio = std::pow(10.0, random.uniform(-9, 0));
+    const Eigen::Vector3d values =
+        scale * (i % 2 == 0 ? Eigen::Vector3d(ratio * 0.5, ratio, 1.0) : Eigen::Vector3d(0.1, 1.0 - 0.9 * ratio, 1.0));
+    const Eigen::Matrix3d product = rotation * values.asDiagonal() * rotation.transpose();
+    const Eigen::Matrix3d matrix = 0.5 * (product + product.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
+    const Eigen::Vector2d gaps = eigen.eigenvalues().tail<2>() - eigen.eigenvalues().head<2>();
+    for (const Extreme extreme : {Extreme::smallest, Extreme::largest}) {
+      const auto vector = distinctEigenvector(matrix, extreme);
+      ASSERT_TRUE(vector) << values.transpose();
+      EXPECT_NEAR(vector->norm(), 1.0, 1e-15);
+      // Rounding turns an eigenvector by about its size over the gap to the next eigenvalue.
+      const double gap = extreme == Extreme::smallest ? gaps[0] : gaps[1];
+      const Eigen::Vector3d expected = eigen.eigenvectors().col(extreme == Extreme::smallest ? 0 : 2);
+      EXPECT_LT(lineAngle(*vector, expected), 100 * std::numeric_limits<double>::epsilon() * values[2] / gap)
+          << values.transpose();
+    }
+  }
 }
 
 TEST(DegenerateNeighborhood, HasNoAxis)

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "grasp_affordances/cloud.h"
+#include "grasp_affordances/range_image.h"
+
+#include "core/surface_ends.h"
+#include "core/thread_team.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// What continueSurfaces returns, with working memory that is kept from image to image.
+class HiddenSurfaces
+{
+public:
+  /// Replaces the cloud by the surfaces of an image that go on for at most `max_width` (m).
+  void update(const RangeImage& image, double max_width, ThreadTeam& team);
+
+  const Cloud& cloud() const { return cloud_; }
+
+  /// Whether no surface goes on in a window of pixels; false also where one only comes near it. Much cheaper than to
+  /// look at the window's pixels.
+  bool empty(const PixelWindow& window) const;
+
+private:
+  /// Scan lines are every other row or column; a block of them is as wide as a tile.
+  static constexpr std::size_t kStride = 2;
+  static constexpr std::size_t kTile = kStride * kScanLines;  // pixels
+
+  /// What a thread works on: a block of rows or columns.
+  struct Block
+  {
+    void resize(std::size_t pixels);
+
+    std::vector<float> depth;
+    std::vector<double> inverse_depth, sums;
+    std::vector<std::uint8_t> last, first;
+    std::array<std::vector<int>, kScanLines> left, right;  // by line, the pixels where surfaces end and begin
+  };
+
+  void clearTiles(std::size_t tile_row);
+  void continueAlong(bool rows, std::size_t tile, const RangeImage& image, double max_width, Block& block);
+
+  Cloud cloud_;
+  std::size_t tile_columns_ = 0, tile_rows_ = 0;
+  std::vector<std::uint8_t> tiles_;  // row-major: whether a square of pixels has points
+  std::vector<Block> blocks_;        // by member of the team
+};
+
+}  // namespace grasp_affordances

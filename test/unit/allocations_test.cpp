@@ -1,0 +1,115 @@
+#include "grasp_affordances/localizer.h"
+#include "grasp_affordances/parameters.h"
+
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+std::atomic<std::size_t> allocations{0};  // of all threads, since the start of the process
+
+}  // namespace
+
+// Watches everything that asks for memory: operator new, Eigen and TBB, too, end up here.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size)
+{
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+void* calloc(std::size_t count, std::size_t size)
+{
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+
+void* realloc(void* memory, std::size_t size)
+{
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size)
+{
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+}
+
+namespace grasp_affordances::test
+{
+namespace
+{
+
+struct Variation
+{
+  const char* preset;
+  Estimator estimator;
+  NeighborhoodKind kind;
+};
+
+class Allocations : public testing::TestWithParam<Variation>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Localizer, Allocations,
+                         testing::Values(Variation{"localizer", Estimator::taubin, NeighborhoodKind::radius},
+                                         Variation{"paper", Estimator::taubin, NeighborhoodKind::radius},
+                                         Variation{"paper", Estimator::taubin, NeighborhoodKind::knn},
+                                         Variation{"paper", Estimator::pca, NeighborhoodKind::radius},
+                                         Variation{"localizer", Estimator::normals, NeighborhoodKind::radius}),
+                         [](const auto& info) {
+                           return std::string(info.param.preset) + "_" + enumWord(info.param.estimator) + "_" +
+                                  enumWord(info.param.kind);
+                         });
+
+TEST(AllocationCounter, Counts)
+{
+  const std::size_t before = allocations;
+  const std::vector<int> numbers(1000, 1);
+  const Eigen::VectorXd vector = Eigen::VectorXd::Ones(1000);
+  EXPECT_GE(allocations - before, 2U) << numbers.front() << vector[0];
+}
+
+TEST_P(Allocations, NoneIsMadeForAFrameOnceMemoryHasGrown)
+{
+  Config config = presetConfig(GetParam().preset);
+  config.estimation.estimator = GetParam().estimator;
+  config.neighborhood.kind = GetParam().kind;
+  config.sampling.samples = 1000;
+  // The camera moves a little: other clouds, of the same scene.
+  std::vector<Cloud> clouds;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    clouds.push_back(captureView(makeScene("table", 1), seed).cloud);
+  }
+  for (const int threads : {1, 2}) {
+    config.threads = threads;
+    Localizer localizer(config);
+    Localization result;
+    for (int warm_up = 0; warm_up < 20; ++warm_up) {
+      localizer.localize(clouds[warm_up % clouds.size()], result);
+    }
+    ASSERT_GT(result.shells.size(), 0U);
+    const std::size_t before = allocations;
+    for (const Cloud& cloud : clouds) {
+      localizer.localize(cloud, result);
+    }
+    EXPECT_EQ(allocations - before, 0U) << threads << " threads";
+  }
+}
+
+}  // namespace
+}  // namespace grasp_affordances::test
