@@ -21,7 +21,7 @@ geometry_msgs::Pose poseMessage(const Shell& shell);
 /// All shells of a localization, in their order, under the header of the cloud.
 CylindricalShellArray shellsMessage(const Localization& localization, const std_msgs::Header& header);
 
-/// All but the counters of clouds, which are the node's.
+/// All but the latency and the counters of clouds, which are the node's.
 LocalizationStatistics statisticsMessage(const Localization& localization, const Config& config,
                                          const std_msgs::Header& header);
 

@@ -16,6 +16,7 @@
 #include <boost/make_shared.hpp>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -75,10 +76,18 @@ private:
   void updateSubscriptions();
   bool anybodyListens() const;
 
+  using Clock = std::chrono::steady_clock;
+
+  struct Arrival
+  {
+    Points message;
+    Clock::time_point time;
+  };
+
   void receive(const Points& message);
-  void process(const Points& message);
+  void process(const Arrival& arrival);
   std::optional<PinholeIntrinsics> knownIntrinsics(const Cloud& cloud);
-  void publish(const Localization& localization, const std_msgs::Header& header);
+  void publish(const Localization& localization, const Arrival& arrival);
 
   bool lazy_ = true;
   std::mutex subscriptions_mutex_;  // guards the publishers, the subscribers and closing_
@@ -99,11 +108,12 @@ private:
   // Of the worker's thread.
   std::unique_ptr<Localizer> localizer_;
   Cloud cloud_;
+  Localization localization_;
   ShellMarkers shell_markers_;
   std::uint64_t processed_ = 0;
   std::uint64_t rejected_ = 0;
 
-  std::unique_ptr<NewestOnlyWorker<Points>> worker_;
+  std::unique_ptr<NewestOnlyWorker<Arrival>> worker_;
 };
 
 void LocalizerNodelet::onInit()
@@ -117,7 +127,7 @@ void LocalizerNodelet::onInit()
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
   }
-  worker_ = std::make_unique<NewestOnlyWorker<Points>>([this](const Points& message) { process(message); });
+  worker_ = std::make_unique<NewestOnlyWorker<Arrival>>([this](const Arrival& arrival) { process(arrival); });
 
   const auto changed = [this](const ros::SingleSubscriberPublisher&) { updateSubscriptions(); };
   {
@@ -161,19 +171,20 @@ void LocalizerNodelet::updateSubscriptions()
 
 void LocalizerNodelet::receive(const Points& message)
 {
+  const Clock::time_point now = Clock::now();
   const std::lock_guard<std::mutex> lock(counters_mutex_);
   ++received_;
-  dropped_ += worker_->put(message) ? 1 : 0;
+  dropped_ += worker_->put({message, now}) ? 1 : 0;
 }
 
-void LocalizerNodelet::process(const Points& message)
+void LocalizerNodelet::process(const Arrival& arrival)
 {
   try {
-    cloudFromPointCloud2(*message, cloud_);
+    cloudFromPointCloud2(*arrival.message, cloud_);
     cloud_.intrinsics = knownIntrinsics(cloud_);
-    const Localization localization = localizer_->localize(cloud_);
+    localizer_->localize(cloud_, localization_);
     ++processed_;
-    publish(localization, message->header);
+    publish(localization_, arrival);
   } catch (const std::exception& error) {  // CloudError, or no memory for what a cloud asks for
     ++rejected_;
     NODELET_ERROR_STREAM_THROTTLE(kThrottlePeriod, "cloud rejected: " << error.what());
@@ -198,11 +209,15 @@ std::optional<PinholeIntrinsics> LocalizerNodelet::knownIntrinsics(const Cloud& 
   }
 }
 
-void LocalizerNodelet::publish(const Localization& localization, const std_msgs::Header& header)
+void LocalizerNodelet::publish(const Localization& localization, const Arrival& arrival)
 {
   if (!localization.warnings.empty()) {
     NODELET_WARN_STREAM_THROTTLE(kThrottlePeriod, joined(localization.warnings));
   }
+  const std_msgs::Header& header = arrival.message->header;
+  shells_.publish(boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header)));
+  markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
+
   auto statistics =
       boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, localizer_->config(), header));
   statistics->clouds_processed = processed_;
@@ -212,9 +227,7 @@ void LocalizerNodelet::publish(const Localization& localization, const std_msgs:
     statistics->clouds_dropped = dropped_;
     statistics->clouds_received = received_;
   }
-
-  shells_.publish(boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header)));
-  markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
+  statistics->milliseconds_latency = std::chrono::duration<double, std::milli>(Clock::now() - arrival.time).count();
   statistics_.publish(statistics);
 }
 

@@ -1,4 +1,5 @@
 #include "grasp_affordances/config.h"
+#include "nodelets/camera_messages.h"
 #include "nodelets/newest_only_worker.h"
 #include "nodelets/simulated_camera_parameters.h"
 #include "simulation/camera_orbit.h"
@@ -11,19 +12,15 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <sensor_msgs/distortion_models.h>
-#include <sensor_msgs/image_encodings.h>
-#include <sensor_msgs/point_cloud2_iterator.h>
 #include <std_msgs/Header.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <Eigen/Geometry>
-#include <boost/make_shared.hpp>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -61,51 +58,12 @@ geometry_msgs::TransformStamped transformMessage(const std::string& parent, cons
   return message;
 }
 
-sensor_msgs::CameraInfoPtr cameraInfoMessage(const XtionModel& model, const std_msgs::Header& header)
+/// A frame that is asked for.
+struct Shot
 {
-  const PinholeIntrinsics& camera = model.intrinsics;
-  auto message = boost::make_shared<sensor_msgs::CameraInfo>();
-  message->header = header;
-  message->width = model.width;
-  message->height = model.height;
-  message->distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
-  message->D.assign(5, 0.0);
-  message->K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-  message->R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  message->P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return message;
-}
-
-/// REP 118: depth in millimetres, 0 where nothing was measured.
-sensor_msgs::ImagePtr depthMessage(const Frame& frame, const std_msgs::Header& header)
-{
-  auto message = boost::make_shared<sensor_msgs::Image>();
-  message->header = header;
-  message->width = frame.cloud.width;
-  message->height = frame.cloud.height;
-  message->encoding = sensor_msgs::image_encodings::TYPE_16UC1;
-  message->step = message->width * sizeof(std::uint16_t);
-  message->data.resize(frame.depth.size() * sizeof(std::uint16_t));
-  std::memcpy(message->data.data(), frame.depth.data(), message->data.size());
-  return message;
-}
-
-sensor_msgs::PointCloud2Ptr pointsMessage(const Cloud& cloud, const std_msgs::Header& header)
-{
-  auto message = boost::make_shared<sensor_msgs::PointCloud2>();
-  message->header = header;
-  message->width = cloud.width;
-  message->height = cloud.height;
-  message->is_dense = false;
-  sensor_msgs::PointCloud2Modifier(*message).setPointCloud2FieldsByString(1, "xyz");
-  sensor_msgs::PointCloud2Iterator<float> xyz(*message, "x");
-  for (std::size_t i = 0; i < cloud.size(); ++i, ++xyz) {
-    xyz[0] = cloud.x[i];
-    xyz[1] = cloud.y[i];
-    xyz[2] = cloud.z[i];
-  }
-  return message;
-}
+  ros::Time stamp;
+  std::size_t number;  // in the round of the frames rendered ahead
+};
 
 }  // namespace
 
@@ -123,18 +81,22 @@ public:
   {
     // In this order: no more frames are asked for, then the last one is finished while its publishers still exist.
     timer_.stop();
+    closing_ = true;
     worker_.reset();
   }
 
 private:
   void onInit() override;
   void publishFixedTransforms();
-  geometry_msgs::TransformStamped linkTransform(const ros::Time& stamp) const;
-  Eigen::Isometry3d cameraPose(const ros::Time& stamp) const;  // T_world_optical
+  geometry_msgs::TransformStamped linkTransform(const Shot& shot) const;
+  Eigen::Isometry3d cameraPose(const Shot& shot) const;  // T_world_optical
   bool anybodyListens() const;
 
   void tick(const ros::Time& stamp);
-  void capture(const ros::Time& stamp);
+  void take(const Shot& shot);
+  FrameMessages render(const Shot& shot, std::uint64_t frame_number) const;
+  void renderAhead();
+  void publish(const FrameMessages& frame);
 
   SimulatedCameraParameters parameters_;
   std::string link_frame_;
@@ -149,8 +111,13 @@ private:
   ros::Publisher depth_;
   ros::Publisher points_;
 
-  std::uint64_t frame_number_ = 0;  // of the worker's thread
-  std::unique_ptr<NewestOnlyWorker<ros::Time>> worker_;
+  // Of the worker's thread.
+  std::uint64_t frame_number_ = 0;
+  std::vector<FrameMessages> frames_ahead_;
+
+  std::atomic<bool> closing_{false};  // ends renderAhead()
+  std::unique_ptr<NewestOnlyWorker<Shot>> worker_;
+  std::size_t next_number_ = 0;  // of the timer's callback
   ros::Timer timer_;
 };
 
@@ -175,7 +142,7 @@ void SimulatedCameraNodelet::onInit()
   points_ = nh.advertise<sensor_msgs::PointCloud2>("depth/points", 1);
   publishFixedTransforms();
 
-  worker_ = std::make_unique<NewestOnlyWorker<ros::Time>>([this](const ros::Time& stamp) { capture(stamp); });
+  worker_ = std::make_unique<NewestOnlyWorker<Shot>>([this](const Shot& shot) { take(shot); });
   timer_ = nh.createTimer(ros::Duration(1.0 / parameters_.rate),
                           [this](const ros::TimerEvent& event) { tick(event.current_real); });
 }
@@ -190,21 +157,26 @@ void SimulatedCameraNodelet::publishFixedTransforms()
   if (orbit_) {
     transforms_ = std::make_unique<tf2_ros::TransformBroadcaster>();
   } else {
-    fixed.push_back(linkTransform(now));
+    fixed.push_back(linkTransform({now, 0}));
   }
   fixed_transforms_ = std::make_unique<tf2_ros::StaticTransformBroadcaster>();
   fixed_transforms_->sendTransform(fixed);
 }
 
-geometry_msgs::TransformStamped SimulatedCameraNodelet::linkTransform(const ros::Time& stamp) const
+geometry_msgs::TransformStamped SimulatedCameraNodelet::linkTransform(const Shot& shot) const
 {
-  const Eigen::Isometry3d T_world_link = cameraPose(stamp) * (kT_link_depth * kT_depth_optical).inverse();
-  return transformMessage(parameters_.world_frame, T_world_link, link_frame_, stamp);
+  const Eigen::Isometry3d T_world_link = cameraPose(shot) * (kT_link_depth * kT_depth_optical).inverse();
+  return transformMessage(parameters_.world_frame, T_world_link, link_frame_, shot.stamp);
 }
 
-Eigen::Isometry3d SimulatedCameraNodelet::cameraPose(const ros::Time& stamp) const
+Eigen::Isometry3d SimulatedCameraNodelet::cameraPose(const Shot& shot) const
 {
-  return orbit_ ? orbit_->pose(stamp.toSec()) : view_.T_scene_camera;
+  if (!orbit_) {
+    return view_.T_scene_camera;
+  }
+  // One round of the frames rendered ahead is one orbit: the last frame leads to the first.
+  return orbit_->pose(parameters_.frames_ahead > 0 ? parameters_.period_s * shot.number / parameters_.frames_ahead
+                                                   : shot.stamp.toSec());
 }
 
 bool SimulatedCameraNodelet::anybodyListens() const
@@ -214,25 +186,56 @@ bool SimulatedCameraNodelet::anybodyListens() const
 
 void SimulatedCameraNodelet::tick(const ros::Time& stamp)
 {
+  const Shot shot{stamp, next_number_};
+  if (parameters_.frames_ahead > 0) {
+    next_number_ = (next_number_ + 1) % parameters_.frames_ahead;
+  }
   if (orbit_) {
-    transforms_->sendTransform(linkTransform(stamp));
+    transforms_->sendTransform(linkTransform(shot));
   }
   // Asked at every tick instead of being told of connections: the ticks go on for the transforms anyway, and nothing
   // needs a lock.
   if (anybodyListens()) {
-    worker_->put(stamp);  // a frame that still waits is skipped
+    worker_->put(shot);  // a frame that still waits is skipped
   }
 }
 
-void SimulatedCameraNodelet::capture(const ros::Time& stamp)
+void SimulatedCameraNodelet::take(const Shot& shot)
 {
-  const Frame frame = xtion_.capture(view_.scene, cameraPose(stamp), parameters_.seed + frame_number_++);
+  if (parameters_.frames_ahead == 0) {
+    publish(render(shot, frame_number_++));
+  } else if (frames_ahead_.size() < parameters_.frames_ahead) {
+    renderAhead();  // by the end of which this shot is old: the next one is published
+  } else {
+    FrameMessages& frame = frames_ahead_[shot.number];
+    restamp(frame, shot.stamp);
+    publish(frame);
+  }
+}
+
+FrameMessages SimulatedCameraNodelet::render(const Shot& shot, std::uint64_t frame_number) const
+{
   std_msgs::Header header;
-  header.stamp = stamp;
+  header.stamp = shot.stamp;
   header.frame_id = optical_frame_;
-  camera_info_.publish(cameraInfoMessage(xtion_.model(), header));
-  depth_.publish(depthMessage(frame, header));
-  points_.publish(pointsMessage(frame.cloud, header));
+  const Frame frame = xtion_.capture(view_.scene, cameraPose(shot), parameters_.seed + frame_number);
+  return frameMessages(frame, xtion_.model(), header);
+}
+
+void SimulatedCameraNodelet::renderAhead()
+{
+  NODELET_INFO_STREAM("rendering " << parameters_.frames_ahead << " frames ahead of time");
+  while (frames_ahead_.size() < parameters_.frames_ahead && !closing_) {
+    const std::size_t number = frames_ahead_.size();
+    frames_ahead_.push_back(render({ros::Time(), number}, number));
+  }
+}
+
+void SimulatedCameraNodelet::publish(const FrameMessages& frame)
+{
+  camera_info_.publish(frame.camera_info);
+  depth_.publish(frame.depth);
+  points_.publish(frame.points);
 }
 
 }  // namespace grasp_affordances

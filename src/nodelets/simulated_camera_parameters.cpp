@@ -43,6 +43,7 @@ SimulatedCameraParameters simulatedCameraParameters(ParameterReader read)
   readWord(read, "motion", result.motion, {"still", "orbit"});
   read("amplitude_deg", result.amplitude_deg, Real{0.0, 45.0}, "degrees", "");
   read("period_s", result.period_s, Real{1.0, 3600.0}, "s", "");
+  read("frames_ahead", result.frames_ahead, Range<std::uint32_t>{0, 1000}, "", "");
   read("world_frame", result.world_frame, "the name of a frame");
   read("camera", result.camera, "what the names of frames begin with");
   read.refuseRemaining();

@@ -18,6 +18,8 @@ struct SimulatedCameraParameters
   std::string motion = "still";       ///< still or orbit
   double amplitude_deg = 5.0;         ///< degrees, 0 to 45, see CameraOrbit
   double period_s = 10.0;             ///< s, 1 to 3600, of one orbit
+  std::uint32_t frames_ahead = 0;     ///< 0 to 1000, rendered ahead of time, then published in turn for ever: an orbit
+                                      ///< then takes frames_ahead / rate; 0: each is rendered when it is due
   std::string world_frame = "world";  ///< the scene's frame
   std::string camera = "camera";      ///< what the names of the camera's frames begin with
 };

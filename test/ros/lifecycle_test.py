@@ -130,6 +130,8 @@ class Lifecycle(unittest.TestCase):
             # It came at most one period, and the way through the network, before its work began.
             age = (arrival - message.header.stamp).to_sec()
             self.assertLess(age, message.milliseconds_total / 1e3 + 1 / rate + 0.3)
+            # From its arrival here, later than its stamp, to a publication earlier than its arrival at this test.
+            self.assertLess(message.milliseconds_latency, age * 1e3)
 
 
 if __name__ == '__main__':

@@ -105,6 +105,7 @@ class Outputs(unittest.TestCase):
         self.assertEqual(statistics.shells, len(found.shells))
         self.assertEqual(sum(getattr(statistics, outcome) for outcome in OUTCOMES), statistics.sampled)
         self.assertGreater(statistics.milliseconds_total, 0)
+        self.assertGreater(statistics.milliseconds_latency, statistics.milliseconds_total)
         self.assertGreaterEqual(statistics.clouds_received, statistics.clouds_processed)
 
     def check_markers(self, array, found):

@@ -35,13 +35,14 @@ TEST(SimulatedCameraParameters, DefaultsAreThoseOfTheYamlFile)
 {
   const YAML::Node file = YAML::LoadFile(GRASP_AFFORDANCES_SOURCE_DIR "/config/simulated_camera.yaml");
   const SimulatedCameraParameters defaults;
-  EXPECT_EQ(file.size(), 8U);
+  EXPECT_EQ(file.size(), 9U);
   EXPECT_EQ(file["scene"].as<std::string>(), defaults.scene);
   EXPECT_EQ(file["seed"].as<std::uint64_t>(), defaults.seed);
   EXPECT_EQ(file["rate"].as<double>(), defaults.rate);
   EXPECT_EQ(file["motion"].as<std::string>(), defaults.motion);
   EXPECT_EQ(file["amplitude_deg"].as<double>(), defaults.amplitude_deg);
   EXPECT_EQ(file["period_s"].as<double>(), defaults.period_s);
+  EXPECT_EQ(file["frames_ahead"].as<std::uint32_t>(), defaults.frames_ahead);
   EXPECT_EQ(file["world_frame"].as<std::string>(), defaults.world_frame);
   EXPECT_EQ(file["camera"].as<std::string>(), defaults.camera);
 }
@@ -55,6 +56,7 @@ TEST(SimulatedCameraParameters, EveryOneIsRead)
   parameters["motion"] = "orbit";
   parameters["amplitude_deg"] = 2.5;
   parameters["period_s"] = 20.0;
+  parameters["frames_ahead"] = 60;
   parameters["world_frame"] = "map";
   parameters["camera"] = "xtion";
   const SimulatedCameraParameters read = simulatedCameraParameters(parameters);
@@ -64,6 +66,7 @@ TEST(SimulatedCameraParameters, EveryOneIsRead)
   EXPECT_EQ(read.motion, "orbit");
   EXPECT_EQ(read.amplitude_deg, 2.5);
   EXPECT_EQ(read.period_s, 20.0);
+  EXPECT_EQ(read.frames_ahead, 60U);
   EXPECT_EQ(read.world_frame, "map");
   EXPECT_EQ(read.camera, "xtion");
 }
@@ -88,6 +91,9 @@ TEST(SimulatedCameraParameters, RefusesWhatIsNotAllowed)
                                     {"motion", true},
                                     {"amplitude_deg", -1.0},
                                     {"period_s", 0.0},
+                                    {"frames_ahead", -1},
+                                    {"frames_ahead", 0.5},
+                                    {"frames_ahead", 1001},
                                     {"world_frame", 1},
                                     {"camera", 0.5},
                                     {"sceen", "table"}}) {

@@ -6,7 +6,9 @@ import math
 import struct
 import time
 import unittest
+import xmlrpc.client
 
+import rosgraph
 import rospy
 import rostest
 import tf2_ros
@@ -134,6 +136,27 @@ class SimulatedCamera(unittest.TestCase):
             else:
                 self.assertEqual(*places)
 
+    def test_frames_rendered_ahead_come_again_and_again_and_lie_where_the_frames_say(self):
+        with camera('ahead', '_scene:=empty_table', '_motion:=orbit', '_amplitude_deg:=10', '_frames_ahead:=3',
+                    '_rate:=10'):
+            self.transform('world', 'ahead_depth_optical_frame')  # until we hear of frames
+            clouds = Listener('ahead/depth/points', PointCloud2)
+            clouds.wait(lambda _: len(clouds.messages()) == 9)
+            clouds.close()
+            received = clouds.messages()[:9]
+            stamps = [cloud.header.stamp for cloud in received]
+            self.assertEqual(stamps, sorted(set(stamps)))
+            places = {}
+            for cloud in received:
+                places.setdefault(cloud.data, set()).add(self.place_above_table('ahead', cloud))
+        self.assertEqual(len(places), 3)
+        self.assertTrue(all(len(of_one_frame) == 1 for of_one_frame in places.values()), places)
+        # A third of a turn apart, on a circle with a radius of 12 cm.
+        first, second, third = (place for of_one_frame in places.values() for place in of_one_frame)
+        for distance in (math.dist(first, second), math.dist(second, third), math.dist(third, first)):
+            self.assertAlmostEqual(distance, math.dist(first, second), delta=1e-9)
+            self.assertGreater(distance, 0.1)
+
     def place_above_table(self, name, cloud):
         """Where the camera was at the time of the cloud, whose points around the middle of the picture lie on z = 0."""
         self.assertEqual(cloud.header.frame_id, name + '_depth_optical_frame')
@@ -176,8 +199,17 @@ class SimulatedCamera(unittest.TestCase):
     def test_localizer_in_the_same_manager_finds_shells(self):
         shells = Listener('localizer/shells', CylindricalShellArray)
         found = shells.wait(lambda m: m.shells)
-        shells.close()
         self.assertEqual(found.header.frame_id, 'camera_depth_optical_frame')
+        # Clouds are handed over as pointers; nobody else listens.
+        wait_until(lambda: self.transports('/camera_nodelet_manager', '/camera/depth/points') == {'INTRAPROCESS'},
+                   'a connection within the process alone')
+        shells.close()
+
+    @staticmethod
+    def transports(node, topic):
+        """Of all connections of a node that carry a topic."""
+        slave = xmlrpc.client.ServerProxy(rosgraph.Master(rospy.get_name()).lookupNode(node))
+        return {transport for _, _, _, transport, name, *_ in slave.getBusInfo(rospy.get_name())[2] if name == topic}
 
     def test_refuses_an_unknown_scene_and_names_the_known_ones(self):
         with camera('refused', '_scene:=tabel') as process:
@@ -185,6 +217,17 @@ class SimulatedCamera(unittest.TestCase):
             self.assertIn("~scene is the string 'tabel'; it must be one of", process.output())
             self.assertIn(' table', process.output())
         self.assertFalse(advertised('/refused/depth/points'))
+
+    def test_unloads_while_it_renders_ahead(self):
+        with manager() as host, loader('_frames_ahead:=1000') as load:
+            wait_until(lambda: advertised('/loaded/points'), 'advertisement')
+            clouds = Listener('loaded/points', PointCloud2)
+            time.sleep(2)  # for a frame or two dozens; a bond forms in the first second
+            self.assertEqual(load.interrupt(), 0, load.output())
+            wait_until(lambda: not advertised('/loaded/points'), 'unloading', timeout=2)
+            clouds.close()
+            self.assertEqual(clouds.messages(), [])
+            self.assertEqual(host.interrupt(), 0, host.output())
 
     def test_unloads_in_the_middle_of_a_frame(self):
         with manager() as host:

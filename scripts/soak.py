@@ -1,0 +1,243 @@
+#!/usr/bin/env python3
+"""Simulated camera, with frames rendered ahead of time, and localizer in one nodelet manager: measures for some minutes
+how many frames are answered, how fast, and whether memory stays flat.
+
+Arguments as ARGUMENT:=VALUE go to simulated_camera.launch. Exit status 1: a limit is not met; docs/reliability.md has
+the limits. What runs on the machine besides counts too."""
+
+import argparse
+import collections
+import math
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import xmlrpc.client
+
+import rosgraph
+import rospy
+from sensor_msgs.msg import CameraInfo
+
+from grasp_affordances.msg import LocalizationStatistics
+
+GRAPH = {'scene': 'table', 'motion': 'orbit', 'rate': '30', 'frames_ahead': '60'}
+MANAGER = '/camera_nodelet_manager'
+
+LATENCY_LIMIT = 33.0  # ms, 99th percentile: a period of the camera
+MEMORY_LIMIT = 1.0    # MB, change after the settling time
+
+Limits = collections.namedtuple('Limits', 'answered settling_time')  # share of the frames sent; s
+LONG = 10.0  # minutes, from which on a run is a long one
+LONG_RUN = Limits(0.999, 60)
+SHORT_RUN = Limits(0.99, 20)  # in one minute, as many frames may be lost as in a long run
+
+
+class Graph:
+    """A ROS graph of its own, beside any other one on this machine."""
+
+    def __init__(self, arguments):
+        with socket.socket() as free:
+            free.bind(('127.0.0.1', 0))
+            port = free.getsockname()[1]
+        self._folder = tempfile.TemporaryDirectory(prefix='grasp_affordances_soak_')
+        self._output = open(os.path.join(self._folder.name, 'output'), 'w+')
+        os.environ.update(ROS_IP='127.0.0.1', ROS_MASTER_URI='http://127.0.0.1:%d' % port,
+                          ROS_LOG_DIR=self._folder.name)
+        self._process = subprocess.Popen(
+            ['roslaunch', '--port', str(port), 'grasp_affordances', 'simulated_camera.launch'] + arguments,
+            stdout=self._output, stderr=subprocess.STDOUT)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._process.send_signal(signal.SIGINT)
+        self._process.wait()
+        self._output.close()
+        self._folder.cleanup()
+
+    def wait(self, condition, otherwise):
+        """Until the condition holds; ends this program where the graph ends before, or after two minutes."""
+        end = time.monotonic() + 120
+        while not condition():
+            if time.monotonic() > end or self._process.poll() is not None:
+                self.fail(otherwise)
+            time.sleep(0.1)
+
+    def fail(self, message):
+        self._output.seek(0)
+        sys.exit(self._output.read() + message)
+
+
+class Recorder:
+    """Keeps what camera and localizer tell about every frame, from the first answer on, within its block."""
+
+    def __init__(self):
+        self._lock = threading.Lock()
+        self._sent = {}      # sequence numbers by stamp
+        self._answers = []   # statistics, and the time from the stamp until they arrived here, in ms
+        self._subscribers = [
+            rospy.Subscriber('camera/depth/camera_info', CameraInfo, self._frame, queue_size=100),
+            rospy.Subscriber('localizer/statistics', LocalizationStatistics, self._answer, queue_size=100)]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+
+    def _frame(self, message):
+        with self._lock:
+            self._sent[message.header.stamp] = message.header.seq
+
+    def _answer(self, message):
+        age = (rospy.Time.now() - message.header.stamp).to_sec() * 1e3
+        with self._lock:
+            self._answers.append((message, age))
+
+    def has_answers(self):
+        with self._lock:
+            return len(self._answers) > 0
+
+    def results(self):
+        """The answers, and how many frames were sent from the first one's to the last one's."""
+        with self._lock:
+            # The two connections are not made at the same moment.
+            answers = [(message, age) for message, age in self._answers if message.header.stamp in self._sent]
+            first, last = (answers[i][0].header.stamp for i in (0, -1))
+            return answers, self._sent[last] - self._sent[first]
+
+
+class Process:
+    """What the system knows of a process."""
+
+    def __init__(self, pid):
+        self._folder = '/proc/%d/' % pid
+
+    def memory(self):
+        """Resident, in MB."""
+        with open(self._folder + 'status') as file:
+            return next(int(line.split()[1]) for line in file if line.startswith('VmRSS:')) / 1024
+
+    def processor_time(self):
+        """In seconds."""
+        with open(self._folder + 'stat') as file:
+            user, system = file.read().rpartition(')')[2].split()[11:13]
+        return (int(user) + int(system)) / os.sysconf('SC_CLK_TCK')
+
+
+def machine_processor_time():
+    """Of all processes, in seconds."""
+    with open('/proc/stat') as file:
+        user, nice, system, _, _, irq, softirq = (int(word) for word in file.readline().split()[1:8])
+    return (user + nice + system + irq + softirq) / os.sysconf('SC_CLK_TCK')
+
+
+def manager():
+    uri = rosgraph.Master(rospy.get_name()).lookupNode(MANAGER)
+    return Process(xmlrpc.client.ServerProxy(uri).getPid(rospy.get_name())[2])
+
+
+def percentile(values, percent):
+    """The smallest of the values that at least so many percent do not exceed."""
+    return sorted(values)[math.ceil(len(values) * percent / 100) - 1]
+
+
+def spread(values):
+    return 'ms: median %.1f, 99th percentile %.1f, largest %.1f' % (percentile(values, 50), percentile(values, 99),
+                                                                    max(values))
+
+
+def watch(process, seconds):
+    """Its memory at every second, its processor time and that of all others, in cores."""
+    memory = []
+    own, all_processes, start = process.processor_time(), machine_processor_time(), time.monotonic()
+    for second in range(seconds):
+        time.sleep(max(0.0, start + second + 1 - time.monotonic()))
+        memory.append(process.memory())
+        if (second + 1) % 60 == 0:
+            print('%d min: %.1f MB' % ((second + 1) // 60, memory[-1]), flush=True)
+    elapsed = time.monotonic() - start
+    own = (process.processor_time() - own) / elapsed
+    return memory, own, (machine_processor_time() - all_processes) / elapsed - own
+
+
+class Figures:
+    """Prints figures, and remembers whether all limits are met."""
+
+    def __init__(self):
+        self.all_met = True
+
+    def line(self, name, text):
+        print('%-12s %s' % (name, text), flush=True)
+
+    def limited_line(self, name, text, limit, met):
+        self.all_met = self.all_met and met
+        self.line(name, '%s; %s: %s' % (text, limit, 'met' if met else 'NOT MET'))
+
+
+def measure(graph, minutes):
+    """Prints the figures of so many minutes; returns whether they are within the limits."""
+    with Recorder() as recorder:
+        graph.wait(recorder.has_answers, 'no frame was answered')
+        try:
+            memory, own, others = watch(manager(), round(60 * minutes))
+        except FileNotFoundError:
+            graph.fail('the nodelet manager ended')
+        answers, sent = recorder.results()
+    return report(LONG_RUN if minutes >= LONG else SHORT_RUN, answers, sent, memory, own, others)
+
+
+def report(limits, answers, sent, memory, own, others):
+    statistics = [message for message, _ in answers]
+    first, last = statistics[0], statistics[-1]
+    answered = last.clouds_processed - first.clouds_processed
+    latency = [message.milliseconds_latency for message in statistics]
+    settled = memory[limits.settling_time - 1:]
+    change = max(abs(value - settled[0]) for value in settled)
+
+    figures = Figures()
+    figures.line('frames', '%d sent in %.0f s' % (sent, (last.header.stamp - first.header.stamp).to_sec()))
+    figures.limited_line('answered', '%d, %.3f %% (%d superseded, %d rejected)' %
+                         (answered, 100 * answered / sent, last.clouds_dropped - first.clouds_dropped,
+                          last.clouds_rejected - first.clouds_rejected),
+                         'at least %g %%' % (100 * limits.answered), answered >= limits.answered * sent)
+    figures.line('localization', spread([message.milliseconds_total for message in statistics]))
+    figures.limited_line('latency', spread(latency), '99th percentile below %g' % LATENCY_LIMIT,
+                         percentile(latency, 99) < LATENCY_LIMIT)
+    figures.line('to listener', spread([age for _, age in answers]))
+    figures.limited_line('memory', 'MB: %.2f after %d s, %.2f at the end, largest change %.2f' %
+                         (settled[0], limits.settling_time, settled[-1], change),
+                         'at most %g' % MEMORY_LIMIT, change <= MEMORY_LIMIT)
+    figures.line('processor', 'of %d cores: manager %.2f, everything else on this machine %.2f' %
+                 (os.cpu_count(), own, others))
+    return figures.all_met
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--minutes', type=float, default=LONG, help='to measure, at least 0.5 (default: %(default)g)')
+    parser.add_argument('--attempts', type=int, default=1, help='of which one must succeed (default: %(default)d)')
+    parser.add_argument('arguments', nargs='*', metavar='ARGUMENT:=VALUE', help='of simulated_camera.launch')
+    options = parser.parse_args()
+    if options.minutes < 0.5:
+        parser.error('--minutes must be at least 0.5')
+    if not all(':=' in argument for argument in options.arguments):
+        parser.error('what is not an option must be ARGUMENT:=VALUE')
+
+    arguments = dict(GRAPH, **dict(argument.split(':=', 1) for argument in options.arguments))
+    with Graph(['%s:=%s' % item for item in arguments.items()]) as graph:
+        graph.wait(rosgraph.is_master_online, 'no ROS master')
+        rospy.init_node('soak', disable_signals=True)
+        passed = any(measure(graph, options.minutes) for _ in range(options.attempts))
+        rospy.signal_shutdown('measured')
+    sys.exit(0 if passed else 1)
+
+
+if __name__ == '__main__':
+    main()
