@@ -13,6 +13,7 @@ namespace grasp_affordances
 {
 
 struct PixelRows;
+struct SphereSurvey;
 
 /// The points of a cloud within a sphere, gathered into contiguous arrays, in the order of their indices.
 /// Reuse one object per thread: its memory is kept from search to search.
@@ -39,14 +40,14 @@ public:
   void appendPoint(const Cloud& cloud, std::size_t index) { appendRange(cloud, index, index + 1); }
 
   /// Appends those of the points in a window of an organized cloud that lie within the sphere.
-  void appendWindow(const Cloud& cloud, const PixelWindow& window);
+  SphereSurvey appendWindow(const Cloud& cloud, const PixelWindow& window);
 
   /// Keeps the k points nearest to the centre, of equally distant ones those with the smaller index, and shrinks the
   /// radius to the k-th distance. Needs at least k points.
   void keepNearest(std::size_t k);
 
 private:
-  void append(const PixelRows& rows);
+  SphereSurvey append(const PixelRows& rows);
 
   std::size_t size_ = 0;
   std::vector<float> x_, y_, z_;

@@ -101,12 +101,12 @@ void Neighborhood::appendRange(const Cloud& cloud, std::size_t begin, std::size_
   append({cloud.x.data(), cloud.y.data(), cloud.z.data(), cloud.size(), begin, 1, end - begin, 0});
 }
 
-void Neighborhood::appendWindow(const Cloud& cloud, const PixelWindow& window)
+SphereSurvey Neighborhood::appendWindow(const Cloud& cloud, const PixelWindow& window)
 {
-  append(pixelRows(cloud, window));
+  return append(pixelRows(cloud, window));
 }
 
-void Neighborhood::append(const PixelRows& rows)
+SphereSurvey Neighborhood::append(const PixelRows& rows)
 {
   const std::size_t needed = size_ + rows.rows * rows.columns + kGatherSlack;
   if (needed > x_.size()) {
@@ -116,7 +116,10 @@ void Neighborhood::append(const PixelRows& rows)
     z_.resize(room);
     index_.resize(room);
   }
-  size_ += gatherSphere(rows, center.data(), radius * radius, {&x_[size_], &y_[size_], &z_[size_], &index_[size_]});
+  const SphereSurvey survey =
+      gatherSphere(rows, center.data(), radius * radius, {&x_[size_], &y_[size_], &z_[size_], &index_[size_]});
+  size_ += survey.points;
+  return survey;
 }
 
 void Neighborhood::keepNearest(std::size_t k)
@@ -135,8 +138,20 @@ void Neighborhood::keepNearest(std::size_t k)
 
 void WindowSearch::withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const
 {
+  gather(center, radius, result);
+}
+
+SphereView WindowSearch::look(const Eigen::Vector3f& center, float radius) const
+{
+  const PixelWindow window = image_.window(center.cast<double>(), radius);
+  return {center, radius, window, surveySphere(pixelRows(image_.cloud(), window), center.data(), radius * radius)};
+}
+
+SphereView WindowSearch::gather(const Eigen::Vector3f& center, float radius, Neighborhood& result) const
+{
+  const PixelWindow window = image_.window(center.cast<double>(), radius);
   result.clear(center, radius);
-  result.appendWindow(image_.cloud(), image_.window(center.cast<double>(), radius));
+  return {center, radius, window, result.appendWindow(image_.cloud(), window)};
 }
 
 void WindowSearch::nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const

@@ -1,7 +1,7 @@
 #include "grasp_affordances/occlusion.h"
 
 #include "core/pixel_rows.h"
-#include "core/window_scan.h"
+#include "core/sphere_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,19 +9,38 @@
 namespace grasp_affordances
 {
 
-bool occluded(const RangeImage& image, const Neighborhood& neighborhood, std::size_t max_points_in_front,
-              double min_distance)
+bool occluded(const RangeImage& image, const SphereView& sphere, std::size_t max_points_in_front, double min_distance)
 {
-  float closest = closestSquaredRange(neighborhood.x(), neighborhood.y(), neighborhood.z(), neighborhood.size());
+  float closest = sphere.survey.closest;
   if (min_distance > 0.0) {
     const double nearer = std::max(0.0, std::sqrt(static_cast<double>(closest)) - min_distance);
     closest = static_cast<float>(nearer * nearer);
   }
-  const Eigen::Vector3f& center = neighborhood.center;
-  const ViewCone cone{{center.x(), center.y(), center.z()},
-                      center.squaredNorm() - neighborhood.radius * neighborhood.radius};
-  const PixelWindow window = image.window(center.cast<double>(), neighborhood.radius);
-  return countNearer(pixelRows(image.cloud(), window), cone, closest, max_points_in_front) > max_points_in_front;
+  if (!(sphere.survey.closest_in_window < closest)) {
+    return false;
+  }
+  const Eigen::Vector3f& center = sphere.center;
+  const ViewCone cone{{center.x(), center.y(), center.z()}, center.squaredNorm() - sphere.radius * sphere.radius};
+  return countNearer(pixelRows(image.cloud(), sphere.window), cone, closest, max_points_in_front) > max_points_in_front;
+}
+
+SphereView viewOf(const Neighborhood& neighborhood, const RangeImage& image)
+{
+  SphereView sphere;
+  sphere.center = neighborhood.center;
+  sphere.radius = neighborhood.radius;
+  sphere.window = image.window(neighborhood.center.cast<double>(), neighborhood.radius);
+  sphere.survey.points = neighborhood.size();
+  sphere.survey.closest =
+      closestSquaredRange(neighborhood.x(), neighborhood.y(), neighborhood.z(), neighborhood.size());
+  sphere.survey.closest_in_window = 0.0F;
+  return sphere;
+}
+
+bool occluded(const RangeImage& image, const Neighborhood& neighborhood, std::size_t max_points_in_front,
+              double min_distance)
+{
+  return occluded(image, viewOf(neighborhood, image), max_points_in_front, min_distance);
 }
 
 }  // namespace grasp_affordances

@@ -78,8 +78,7 @@ void PreparedCloud::findNeighborhood(std::uint32_t point, const Config& config, 
   if (config.neighborhood.kind == NeighborhoodKind::knn) {
     search->nearest(center, static_cast<std::size_t>(config.neighborhood.k), neighborhood);
   } else {
-    const double radius = config.neighborhood.radius > 0.0 ? config.neighborhood.radius : config.hand.capture_radius;
-    search->withinRadius(center, static_cast<float>(radius), neighborhood);
+    search->withinRadius(center, neighborhoodRadius(config), neighborhood);
   }
 }
 

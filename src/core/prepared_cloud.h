@@ -44,6 +44,16 @@ public:
     return grasp_affordances::samplePoint(measured, screen.points(), config.sampling, i);
   }
 
+  /// Where a neighborhood is all points within a sphere: its radius (m).
+  static float neighborhoodRadius(const Config& config)
+  {
+    const double radius = config.neighborhood.radius;
+    return static_cast<float>(radius > 0.0 ? radius : config.hand.capture_radius);
+  }
+
+  /// Searches the range image; null where there is none.
+  const WindowSearch* windowSearch() const { return image && window_search_ ? &*window_search_ : nullptr; }
+
   /// Distance (m) between neighboring points at a point of the cloud; 0 without a range image.
   double spacing(const Eigen::Vector3d& point) const { return image ? image->spacing(point.z()) : 0.0; }
 

@@ -1,5 +1,6 @@
 #include "core/sample_block.h"
 
+#include "grasp_affordances/circle.h"
 #include "grasp_affordances/free_space.h"
 #include "grasp_affordances/occlusion.h"
 #include "grasp_affordances/principal_axis.h"
@@ -39,104 +40,144 @@ Eigen::Vector3d normalTowards(const Eigen::Vector3d& sensor, const Eigen::Vector
   return across.norm() > kAlongAxis ? across.normalized() : axis.unitOrthogonal();
 }
 
+std::optional<Outcome> enoughPoints(std::size_t points, const Config& config)
+{
+  return points >= static_cast<std::size_t>(config.neighborhood.min_points) ? kGoesOn : Outcome::too_few_points;
+}
+
 }  // namespace
+
+template <typename Stage>
+void SampleBlock::Remaining::pass(Stage&& stage)
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < size_; ++i) {
+    if (const std::optional<Outcome> ended = stage(*samples_[i])) {
+      samples_[i]->result->outcome = *ended;
+    } else {
+      samples_[kept++] = samples_[i];
+    }
+  }
+  size_ = kept;
+}
 
 void SampleBlock::examine(const PreparedCloud& prepared, const Config& config, std::uint64_t begin, std::uint64_t end,
                           SampleResult* results)
 {
-  left_count_ = 0;
+  Remaining all;
   for (std::uint64_t i = begin; i < end; ++i) {
     Sample& sample = samples_[i - begin];
     sample.number = i;
     sample.point = prepared.samplePoint(config, i);
     sample.result = &results[i - begin];
     sample.result->outcome = Outcome::shell;
-    left_[left_count_++] = &sample;
+    all.add(sample);
   }
-  Stopwatch stopwatch;
-  findNeighborhoods(prepared, config);
-  times.neighborhoods += stopwatch.lap();
-  filterOccluded(prepared, config);
-  times.occlusion += stopwatch.lap();
-  sumMoments(config);
-  if (config.estimation.estimator == Estimator::taubin) {
-    estimateCurvatureAxes(prepared, config);
-  } else {
-    estimatePrincipalAxes(prepared, config);
+  // To the letter, with no distance, the filter rejects most samples: then it is worth a look before their points are
+  // gathered.
+  const bool in_window = prepared.windowSearch() != nullptr && config.neighborhood.kind == NeighborhoodKind::radius;
+  const bool looks = in_window && config.occlusion.filter && config.occlusion.min_distance_in_front == 0.0;
+  if (looks) {
+    look(all, prepared, config);
+    filterOccluded(all, prepared, config);
   }
-  fitCylinders(prepared, config);
-  times.fit += stopwatch.lap();
-  fitShells(prepared, config);
-  times.shell += stopwatch.lap();
-}
-
-template <typename Stage>
-void SampleBlock::forEachLeft(Stage&& stage)
-{
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < left_count_; ++i) {
-    if (const std::optional<Outcome> ended = stage(*left_[i])) {
-      left_[i]->result->outcome = *ended;
-    } else {
-      left_[kept++] = left_[i];
+  for (std::size_t first = 0; first < all.size(); first += kFittedAtOnce) {
+    Remaining samples;
+    for (std::size_t i = first; i < std::min(first + kFittedAtOnce, all.size()); ++i) {
+      all[i].neighborhood = &neighborhoods_[i - first];
+      samples.add(all[i]);
     }
+    findNeighborhoods(samples, in_window, prepared, config);
+    if (!looks) {
+      filterOccluded(samples, prepared, config);
+    }
+    Stopwatch stopwatch;
+    sumMoments(samples, config);
+    if (config.estimation.estimator == Estimator::taubin) {
+      estimateCurvatureAxes(samples, prepared, config);
+    } else {
+      estimatePrincipalAxes(samples, prepared, config);
+    }
+    fitCylinders(samples, prepared, config);
+    times.fit += stopwatch.lap();
+    fitShells(samples, prepared, config);
+    times.shell += stopwatch.lap();
   }
-  left_count_ = kept;
 }
 
-void SampleBlock::findNeighborhoods(const PreparedCloud& prepared, const Config& config)
+void SampleBlock::look(Remaining& samples, const PreparedCloud& prepared, const Config& config)
 {
-  forEachLeft([&](Sample& sample) {
-    prepared.findNeighborhood(sample.point, config, sample.neighborhood);
-    const bool enough = sample.neighborhood.size() >= static_cast<std::size_t>(config.neighborhood.min_points);
-    return enough ? kGoesOn : Outcome::too_few_points;
+  Stopwatch stopwatch;
+  samples.pass([&](Sample& sample) {
+    const Eigen::Vector3f center = prepared.cloud->point(sample.point);
+    sample.sphere = prepared.windowSearch()->look(center, PreparedCloud::neighborhoodRadius(config));
+    return enoughPoints(sample.sphere.survey.points, config);
   });
+  times.neighborhoods += stopwatch.lap();
 }
 
-void SampleBlock::filterOccluded(const PreparedCloud& prepared, const Config& config)
+void SampleBlock::findNeighborhoods(Remaining& samples, bool in_window, const PreparedCloud& prepared,
+                                    const Config& config)
 {
-  const OcclusionConfig& occlusion = config.occlusion;
-  if (!occlusion.filter || !prepared.image) {
+  Stopwatch stopwatch;
+  samples.pass([&](Sample& sample) {
+    if (in_window) {
+      const Eigen::Vector3f center = prepared.cloud->point(sample.point);
+      const float radius = PreparedCloud::neighborhoodRadius(config);
+      sample.sphere = prepared.windowSearch()->gather(center, radius, *sample.neighborhood);
+    } else {
+      prepared.findNeighborhood(sample.point, config, *sample.neighborhood);
+      if (prepared.image) {
+        sample.sphere = viewOf(*sample.neighborhood, *prepared.image);
+      }
+    }
+    return enoughPoints(sample.neighborhood->size(), config);
+  });
+  times.neighborhoods += stopwatch.lap();
+}
+
+void SampleBlock::filterOccluded(Remaining& samples, const PreparedCloud& prepared, const Config& config)
+{
+  if (!config.occlusion.filter || !prepared.image) {
     return;
   }
-  forEachLeft([&](const Sample& sample) {
-    const auto enough = static_cast<std::size_t>(occlusion.max_points_in_front);
-    const bool hidden = occluded(*prepared.image, sample.neighborhood, enough, occlusion.min_distance_in_front);
+  Stopwatch stopwatch;
+  samples.pass([&](const Sample& sample) {
+    const auto enough = static_cast<std::size_t>(config.occlusion.max_points_in_front);
+    const bool hidden = occluded(*prepared.image, sample.sphere, enough, config.occlusion.min_distance_in_front);
     return hidden ? Outcome::occluded : kGoesOn;
   });
+  times.occlusion += stopwatch.lap();
 }
 
-void SampleBlock::sumMoments(const Config& config)
+void SampleBlock::sumMoments(Remaining& samples, const Config& config)
 {
   const int degree = config.estimation.estimator == Estimator::taubin ? 4 : 3;  // 3: for the circle
-  forEachLeft([degree](Sample& sample) {
-    if (!(sample.neighborhood.radius > 0.0F)) {
+  samples.pass([degree](Sample& sample) {
+    if (!(sample.neighborhood->radius > 0.0F)) {
       return std::optional<Outcome>(Outcome::degenerate);
     }
-    sample.moments = Moments(sample.neighborhood, degree);
+    sample.moments = Moments(*sample.neighborhood, degree);
     return kGoesOn;
   });
 }
 
-void SampleBlock::estimateCurvatureAxes(const PreparedCloud& prepared, const Config& config)
+void SampleBlock::estimateCurvatureAxes(Remaining& samples, const PreparedCloud& prepared, const Config& config)
 {
-  for (std::size_t begin = 0; begin < left_count_; begin += TaubinFitter::kCapacity) {
-    const std::size_t end = std::min(begin + TaubinFitter::kCapacity, left_count_);
-    fitter_.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-      const Neighborhood& neighborhood = left_[i]->neighborhood;
-      fitter_.add(left_[i]->moments, neighborhood.center.cast<double>(), neighborhood.radius);
-    }
-    fitter_.fit();
-    for (std::size_t i = begin; i < end; ++i) {
-      left_[i]->fit = fitter_[i - begin];
-    }
+  fitter_.clear();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Neighborhood& neighborhood = *samples[i].neighborhood;
+    fitter_.add(samples[i].moments, neighborhood.center.cast<double>(), neighborhood.radius);
   }
-  forEachLeft([&](Sample& sample) -> std::optional<Outcome> {
+  fitter_.fit();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].fit = fitter_[i];
+  }
+  samples.pass([&](Sample& sample) -> std::optional<Outcome> {
     if (!sample.fit) {
       return Outcome::degenerate;
     }
-    const auto curvature = medianCurvature(sample.fit->quadric, sample.neighborhood, prepared.sensor,
+    const auto curvature = medianCurvature(sample.fit->quadric, *sample.neighborhood, prepared.sensor,
                                            static_cast<std::size_t>(config.estimation.curvature_points),
                                            randomBits(config.sampling.seed, sample.number, 1), curvature_scratch_);
     if (!curvature) {
@@ -149,12 +190,12 @@ void SampleBlock::estimateCurvatureAxes(const PreparedCloud& prepared, const Con
   });
 }
 
-void SampleBlock::estimatePrincipalAxes(const PreparedCloud& prepared, const Config& config)
+void SampleBlock::estimatePrincipalAxes(Remaining& samples, const PreparedCloud& prepared, const Config& config)
 {
-  forEachLeft([&](Sample& sample) -> std::optional<Outcome> {
+  samples.pass([&](Sample& sample) -> std::optional<Outcome> {
     const auto axis = config.estimation.estimator == Estimator::pca
                           ? pointsAxis(sample.moments)
-                          : normalsAxis(sample.neighborhood, prepared.normals.normals());
+                          : normalsAxis(*sample.neighborhood, prepared.normals.normals());
     if (!axis) {
       return Outcome::degenerate;
     }
@@ -166,17 +207,17 @@ void SampleBlock::estimatePrincipalAxes(const PreparedCloud& prepared, const Con
 }
 
 /// The cylinder through each neighborhood, about its axis.
-void SampleBlock::fitCylinders(const PreparedCloud& prepared, const Config& config)
+void SampleBlock::fitCylinders(Remaining& samples, const PreparedCloud& prepared, const Config& config)
 {
-  forEachLeft([&](Sample& sample) -> std::optional<Outcome> {
+  samples.pass([&](Sample& sample) -> std::optional<Outcome> {
     sample.axis = withLargestComponentPositive(sample.axis);
     const Eigen::Vector3d first = sample.axis.unitOrthogonal();
     const Eigen::Vector3d second = sample.axis.cross(first);
-    const auto circle = fitCircle(sample.moments, sample.neighborhood.radius, first, second);
+    const auto circle = fitCircle(sample.moments, sample.neighborhood->radius, first, second);
     if (!circle) {
       return Outcome::degenerate;
     }
-    const Eigen::Vector3d center = sample.neighborhood.center.cast<double>();
+    const Eigen::Vector3d center = sample.neighborhood->center.cast<double>();
     sample.cylinder.origin = center + circle->center.x() * first + circle->center.y() * second;
     sample.cylinder.axis = sample.axis;
     sample.cylinder.radius = circle->radius;
@@ -190,16 +231,16 @@ void SampleBlock::fitCylinders(const PreparedCloud& prepared, const Config& conf
   });
 }
 
-void SampleBlock::fitShells(const PreparedCloud& prepared, const Config& config)
+void SampleBlock::fitShells(Remaining& samples, const PreparedCloud& prepared, const Config& config)
 {
-  forEachLeft([&](Sample& sample) { return fitShell(prepared, config, sample); });
+  samples.pass([&](Sample& sample) { return fitShell(sample, prepared, config); });
 }
 
-std::optional<Outcome> SampleBlock::fitShell(const PreparedCloud& prepared, const Config& config, Sample& sample)
+std::optional<Outcome> SampleBlock::fitShell(Sample& sample, const PreparedCloud& prepared, const Config& config)
 {
   const ShellSurroundings surroundings{*prepared.search, prepared.hidden_search ? &*prepared.hidden_search : nullptr,
                                        prepared.image ? &*prepared.image : nullptr,
-                                       prepared.spacing(sample.neighborhood.center.cast<double>())};
+                                       prepared.spacing(sample.neighborhood->center.cast<double>())};
   const ShellSearchResult found = shell_search_.search(surroundings, sample.cylinder, config.hand, config.shell);
   if (found.status != ShellSearchResult::found) {
     return found.status == ShellSearchResult::too_short ? Outcome::too_short : Outcome::no_shell;

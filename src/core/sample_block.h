@@ -1,6 +1,5 @@
 #pragma once
 
-#include "grasp_affordances/circle.h"
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/curvature.h"
 #include "grasp_affordances/localization.h"
@@ -27,12 +26,12 @@ struct SampleResult
   Shell shell;  // set where the outcome is a shell
 };
 
-/// The body of Algorithm 1's loop, for a few samples at a time: each stage is done for all of them that are left before
+/// The body of Algorithm 1's loop, for a block of samples at a time: each stage is done for all that are left before
 /// the next, since quadrics are fitted several at once. Keeps its working memory: one instance per thread.
 class SampleBlock
 {
 public:
-  static constexpr std::size_t kSamples = 16;
+  static constexpr std::size_t kSamples = 64;
 
   /// Examines the samples [begin, end), at most kSamples; the result of the first goes to results[0].
   void examine(const PreparedCloud& prepared, const Config& config, std::uint64_t begin, std::uint64_t end,
@@ -45,7 +44,8 @@ private:
   {
     std::uint64_t number;
     std::uint32_t point;
-    Neighborhood neighborhood;
+    SphereView sphere;           // with a range image only
+    Neighborhood* neighborhood;  // of those that are fitted at once
     Moments moments;
     std::optional<TaubinFit> fit;
     Eigen::Vector3d axis;  // unit
@@ -55,22 +55,37 @@ private:
     SampleResult* result;
   };
 
-  void findNeighborhoods(const PreparedCloud& prepared, const Config& config);
-  void filterOccluded(const PreparedCloud& prepared, const Config& config);
-  void sumMoments(const Config& config);
-  void estimateCurvatureAxes(const PreparedCloud& prepared, const Config& config);
-  void estimatePrincipalAxes(const PreparedCloud& prepared, const Config& config);
-  void fitCylinders(const PreparedCloud& prepared, const Config& config);
-  void fitShells(const PreparedCloud& prepared, const Config& config);
-  std::optional<Outcome> fitShell(const PreparedCloud& prepared, const Config& config, Sample& sample);
+  /// Samples that have not ended.
+  class Remaining
+  {
+  public:
+    std::size_t size() const { return size_; }
+    Sample& operator[](std::size_t i) const { return *samples_[i]; }
+    void add(Sample& sample) { samples_[size_++] = &sample; }
 
-  /// Calls stage(sample) for the samples that are left; one that is given an outcome ends there.
-  template <typename Stage>
-  void forEachLeft(Stage&& stage);
+    /// Calls stage(sample) for each; one that is given an outcome ends there.
+    template <typename Stage>
+    void pass(Stage&& stage);
+
+  private:
+    std::array<Sample*, kSamples> samples_;
+    std::size_t size_ = 0;
+  };
+
+  static constexpr std::size_t kFittedAtOnce = TaubinFitter::kCapacity;
+
+  void look(Remaining& samples, const PreparedCloud& prepared, const Config& config);
+  void findNeighborhoods(Remaining& samples, bool in_window, const PreparedCloud& prepared, const Config& config);
+  void filterOccluded(Remaining& samples, const PreparedCloud& prepared, const Config& config);
+  void sumMoments(Remaining& samples, const Config& config);
+  void estimateCurvatureAxes(Remaining& samples, const PreparedCloud& prepared, const Config& config);
+  void estimatePrincipalAxes(Remaining& samples, const PreparedCloud& prepared, const Config& config);
+  void fitCylinders(Remaining& samples, const PreparedCloud& prepared, const Config& config);
+  void fitShells(Remaining& samples, const PreparedCloud& prepared, const Config& config);
+  std::optional<Outcome> fitShell(Sample& sample, const PreparedCloud& prepared, const Config& config);
 
   std::array<Sample, kSamples> samples_;
-  std::array<Sample*, kSamples> left_;  // those that have not ended
-  std::size_t left_count_ = 0;
+  std::array<Neighborhood, kFittedAtOnce> neighborhoods_;
   TaubinFitter fitter_;
   CurvatureScratch curvature_scratch_;
   ShellSearch shell_search_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/window_scan.cpp"
@@ -19,6 +20,7 @@ using F = hn::CappedTag<float, kGatherSlack>;
 using U = hn::Rebind<std::uint32_t, F>;
 using Floats = hn::Vec<F>;
 using Floats1 = hn::CappedTag<float, 1>;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// As grasp_affordances::squaredLength.
 template <class V>
@@ -47,50 +49,80 @@ HWY_ATTR HWY_INLINE void scanRow(std::size_t begin, std::size_t end, std::size_t
   }
 }
 
-/// Appends the points of a sphere to what was gathered before.
-struct SphereGatherer
+/// Looks at the points of a window and keeps those of a sphere, if there is where to.
+template <bool Keep>
+struct SphereScan
 {
-  GatheredPoints to;
-  const float *x, *y, *z;
-  float cx, cy, cz, squared_radius;
-  std::size_t count = 0;
-
   template <class Tag>
   HWY_ATTR HWY_INLINE void operator()(Tag f, std::size_t i, hn::Mask<Tag> counts)
   {
     const auto px = hn::LoadU(f, x + i), py = hn::LoadU(f, y + i), pz = hn::LoadU(f, z + i);
     const auto squared =
         squaredLength(hn::Sub(px, hn::Set(f, cx)), hn::Sub(py, hn::Set(f, cy)), hn::Sub(pz, hn::Set(f, cz)));
-    // False for NaN: what was not measured is in no sphere.
-    const Compaction<Tag> inside(hn::And(counts, hn::Le(squared, hn::Set(f, squared_radius))));
-    if (inside.count == 0) {
-      return;
+    const auto range = squaredLength(px, py, pz), infinity = hn::Set(f, kInfinity);
+    // False for NaN: what was not measured is in no sphere, and nowhere near.
+    const auto inside = hn::And(counts, hn::Le(squared, hn::Set(f, squared_radius)));
+    const auto range_inside = hn::IfThenElse(inside, range, infinity);
+    const auto range_in_window = hn::IfThenElse(hn::And(counts, hn::Lt(range, infinity)), range, infinity);
+    if constexpr (std::is_same_v<Tag, F>) {
+      closest = hn::Min(closest, range_inside);
+      closest_in_window = hn::Min(closest_in_window, range_in_window);
+    } else {
+      rest_closest = std::min(rest_closest, hn::GetLane(range_inside));
+      rest_closest_in_window = std::min(rest_closest_in_window, hn::GetLane(range_in_window));
     }
-    const hn::Rebind<std::uint32_t, Tag> u;
-    hn::StoreU(inside(px), f, to.x + count);
-    hn::StoreU(inside(py), f, to.y + count);
-    hn::StoreU(inside(pz), f, to.z + count);
-    hn::StoreU(inside(hn::Add(hn::Set(u, static_cast<std::uint32_t>(i)), hn::Iota(u, 0))), u, to.index + count);
-    count += inside.count;
+    if constexpr (Keep) {
+      const Compaction<Tag> kept(inside);
+      if (kept.count > 0) {
+        const hn::Rebind<std::uint32_t, Tag> u;
+        hn::StoreU(kept(px), f, to.x + points);
+        hn::StoreU(kept(py), f, to.y + points);
+        hn::StoreU(kept(pz), f, to.z + points);
+        hn::StoreU(kept(hn::Add(hn::Set(u, static_cast<std::uint32_t>(i)), hn::Iota(u, 0))), u, to.index + points);
+      }
+      points += kept.count;
+    } else {
+      points += hn::CountTrue(f, inside);
+    }
   }
+
+  const float *x, *y, *z;
+  float cx, cy, cz, squared_radius;
+  GatheredPoints to;
+  std::size_t points = 0;
+  Floats closest = hn::Set(F(), kInfinity), closest_in_window = hn::Set(F(), kInfinity);
+  float rest_closest = kInfinity, rest_closest_in_window = kInfinity;
 };
 
-HWY_ATTR std::size_t gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
-                                  const GatheredPoints& gathered)
+template <bool Keep>
+HWY_ATTR HWY_INLINE SphereSurvey scanSphere(const PixelRows& window, const float center[3], float squared_radius,
+                                            const GatheredPoints& to)
 {
-  SphereGatherer gatherer{gathered, window.x, window.y, window.z, center[0], center[1], center[2], squared_radius};
+  SphereScan<Keep> scan{window.x, window.y, window.z, center[0], center[1], center[2], squared_radius, to};
   for (std::size_t row = 0; row < window.rows; ++row) {
     const std::size_t begin = window.first + row * window.stride;
-    scanRow(begin, begin + window.columns, window.points, gatherer);
+    scanRow(begin, begin + window.columns, window.points, scan);
   }
-  return gatherer.count;
+  return {scan.points, std::min(scan.rest_closest, hn::GetLane(hn::MinOfLanes(F(), scan.closest))),
+          std::min(scan.rest_closest_in_window, hn::GetLane(hn::MinOfLanes(F(), scan.closest_in_window)))};
+}
+
+HWY_ATTR SphereSurvey surveySphere(const PixelRows& window, const float center[3], float squared_radius)
+{
+  return scanSphere<false>(window, center, squared_radius, {});
+}
+
+HWY_ATTR SphereSurvey gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
+                                   const GatheredPoints& gathered)
+{
+  return scanSphere<true>(window, center, squared_radius, gathered);
 }
 
 HWY_ATTR float closestSquaredRange(const float* x, const float* y, const float* z, std::size_t count)
 {
   const F f;
-  Floats closest = hn::Set(f, std::numeric_limits<float>::infinity());
-  float rest = std::numeric_limits<float>::infinity();
+  Floats closest = hn::Set(f, kInfinity);
+  float rest = kInfinity;
   scanRow(0, count, count, [&](auto tag, std::size_t i, auto) HWY_ATTR {
     const auto range = squaredLength(hn::LoadU(tag, x + i), hn::LoadU(tag, y + i), hn::LoadU(tag, z + i));
     if constexpr (std::is_same_v<decltype(tag), F>) {
@@ -104,11 +136,11 @@ HWY_ATTR float closestSquaredRange(const float* x, const float* y, const float* 
 
 HWY_ATTR std::size_t countNearer(const PixelRows& window, const ViewCone& cone, float squared_range, std::size_t enough)
 {
-  constexpr float kAnywhere = -std::numeric_limits<float>::infinity();
+  constexpr float kAnywhere = -kInfinity;
   const float least_along = cone.tangent > 0.0F ? 0.0F : kAnywhere;
   std::size_t count = 0;
-  for (std::size_t row = 0; row < window.rows && count <= enough; ++row) {
-    const std::size_t begin = window.first + row * window.stride;
+  for (std::size_t row = window.rows; row > 0 && count <= enough; --row) {
+    const std::size_t begin = window.first + (row - 1) * window.stride;
     scanRow(begin, begin + window.columns, window.points, [&](auto f, std::size_t i, auto counts) HWY_ATTR {
       const auto x = hn::LoadU(f, window.x + i), y = hn::LoadU(f, window.y + i), z = hn::LoadU(f, window.z + i);
       const auto range = squaredLength(x, y, z);
@@ -137,13 +169,19 @@ namespace grasp_affordances
 {
 
 HWY_EXPORT(gatherSphere);
+HWY_EXPORT(surveySphere);
 HWY_EXPORT(closestSquaredRange);
 HWY_EXPORT(countNearer);
 
-std::size_t gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
-                         const GatheredPoints& gathered)
+SphereSurvey gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
+                          const GatheredPoints& gathered)
 {
   return HWY_DYNAMIC_DISPATCH(gatherSphere)(window, center, squared_radius, gathered);
+}
+
+SphereSurvey surveySphere(const PixelRows& window, const float center[3], float squared_radius)
+{
+  return HWY_DYNAMIC_DISPATCH(surveySphere)(window, center, squared_radius);
 }
 
 float closestSquaredRange(const float* x, const float* y, const float* z, std::size_t count)

@@ -31,9 +31,19 @@ struct GatheredPoints
   std::uint32_t* index;
 };
 
-/// Copies the points with squaredLength(p - center) <= squared_radius, in the order of their indices. @return how many
-std::size_t gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
-                         const GatheredPoints& gathered);
+/// What a rectangle holds of a sphere.
+struct SphereSurvey
+{
+  std::size_t points;       ///< with squaredLength(p - center) <= squared_radius
+  float closest;            ///< smallest squaredLength(p) of those points; infinity for none
+  float closest_in_window;  ///< the same of all points of the rectangle
+};
+
+SphereSurvey surveySphere(const PixelRows& window, const float center[3], float squared_radius);
+
+/// The same, and copies the points of the sphere, in the order of their indices.
+SphereSurvey gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
+                          const GatheredPoints& gathered);
 
 /// The smallest squaredLength(p) of `count` points; infinity for none.
 float closestSquaredRange(const float* x, const float* y, const float* z, std::size_t count);
@@ -46,8 +56,8 @@ struct ViewCone
   float tangent;  ///< |center|^2 - radius^2
 };
 
-/// Number of points in the cone with squaredLength(p) < squared_range. Rows that follow when there are more than
-/// `enough` are left out.
+/// Number of points in the cone with squaredLength(p) < squared_range. From the last row to the first, since what is
+/// nearer most often is lower in the image; rows that follow when there are more than `enough` are left out.
 std::size_t countNearer(const PixelRows& window, const ViewCone& cone, float squared_range, std::size_t enough);
 
 }  // namespace grasp_affordances

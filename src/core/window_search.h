@@ -3,6 +3,8 @@
 #include "grasp_affordances/neighborhoods.h"
 #include "grasp_affordances/range_image.h"
 
+#include "core/sphere_view.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -19,6 +21,12 @@ public:
 
   void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const override;
   void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override;
+
+  /// withinRadius, and what the sensor sees of the sphere.
+  SphereView gather(const Eigen::Vector3f& center, float radius, Neighborhood& result) const;
+
+  /// The latter alone, in less time.
+  SphereView look(const Eigen::Vector3f& center, float radius) const;
 
 private:
   const RangeImage& image_;

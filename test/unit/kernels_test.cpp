@@ -87,17 +87,28 @@ TEST_P(Kernel, GathersTheSphereAndNothingElse)
       // The window ends with the image: nothing may be read beyond it.
       const PixelRows window = image.window(WavyImage::kWidth - columns, 2, columns, WavyImage::kHeight - 2);
       std::vector<std::uint32_t> expected;
+      float closest = kInfinity, closest_in_window = kInfinity;
       for (const std::size_t i : pixels(window)) {
         const Eigen::Vector3f p = image.cloud.point(i);
+        const float range = squaredLength(p.x(), p.y(), p.z());
+        closest_in_window = std::min(closest_in_window, image.cloud.measured(i) ? range : kInfinity);
         if (squaredLength(p.x() - center[0], p.y() - center[1], p.z() - center[2]) <= radius * radius) {
           expected.push_back(static_cast<std::uint32_t>(i));
+          closest = std::min(closest, range);
         }
       }
       const std::size_t room = window.rows * window.columns + kGatherSlack;
       std::vector<float> x(room), y(room), z(room);
       std::vector<std::uint32_t> index(room);
-      const std::size_t count =
+      const SphereSurvey gathered =
           gatherSphere(window, center, radius * radius, {x.data(), y.data(), z.data(), index.data()});
+      const SphereSurvey survey = surveySphere(window, center, radius * radius);
+      const std::size_t count = gathered.points;
+      EXPECT_EQ(survey.points, count);
+      for (const SphereSurvey& result : {gathered, survey}) {
+        EXPECT_EQ(result.closest, closest) << columns << " columns, radius " << radius;
+        EXPECT_EQ(result.closest_in_window, closest_in_window) << columns << " columns, radius " << radius;
+      }
       index.resize(count);
       ASSERT_EQ(index, expected) << columns << " columns, radius " << radius;
       for (std::size_t i = 0; i < count; ++i) {
