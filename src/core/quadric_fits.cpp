@@ -60,7 +60,7 @@ struct Scatter
   Matrix<kQuadratic, kQuadratic> gradients;  // lower right of N, likewise
 };
 
-HWY_ATTR void scatterOf(const std::array<Real, kMomentCount>& mean, Scatter& scatter)
+HWY_ATTR HWY_INLINE void scatterOf(const std::array<Real, kMomentCount>& mean, Scatter& scatter)
 {
   const auto E = [&](int a) HWY_ATTR { return mean[productIndex(a)]; };
   auto& V = scatter.covariance;
@@ -90,7 +90,7 @@ HWY_ATTR void scatterOf(const std::array<Real, kMomentCount>& mean, Scatter& sca
       const Real both = mean[productIndex(a, b, c, d)] - mean[productIndex(a, b)] * mean[productIndex(c, d)];
       scatter.quadratic[p][q] =
           both - (raw[p][c] * E(d) + raw[p][d] * E(c)) - (E(b) * scatter.mixed[q][a] + E(a) * scatter.mixed[q][b]);
-      Real gradients;
+      Real gradients(0.0);
       gradients += a == c ? V[b][d] : Real();
       gradients += a == d ? V[b][c] : Real();
       gradients += b == c ? V[a][d] : Real();
@@ -110,7 +110,8 @@ struct Cholesky
   Vector<kQuadratic> inverse_diagonal;
   Condition regular;  // all pivots are large enough
 
-  HWY_ATTR explicit Cholesky(const Matrix<kQuadratic, kQuadratic>& symmetric) : regular(Real(0.0) < Real(1.0))
+  HWY_ATTR HWY_INLINE explicit Cholesky(const Matrix<kQuadratic, kQuadratic>& symmetric)
+      : regular(Real(0.0) < Real(1.0))
   {
     UNROLLED
     for (int j = 0; j < kQuadratic; ++j) {
@@ -132,7 +133,7 @@ struct Cholesky
   }
 
   /// x := L^-1 x
-  HWY_ATTR void solveForward(Vector<kQuadratic>& x) const
+  HWY_ATTR HWY_INLINE void solveForward(Vector<kQuadratic>& x) const
   {
     UNROLLED
     for (int i = 0; i < kQuadratic; ++i) {
@@ -145,7 +146,7 @@ struct Cholesky
   }
 
   /// x := L'^-1 x
-  HWY_ATTR void solveBackward(Vector<kQuadratic>& x) const
+  HWY_ATTR HWY_INLINE void solveBackward(Vector<kQuadratic>& x) const
   {
     UNROLLED
     for (int i = kQuadratic - 1; i >= 0; --i) {
@@ -159,7 +160,7 @@ struct Cholesky
 };
 
 /// The ordinary symmetric eigenproblem that remains when N is divided out of M by its Cholesky factor.
-HWY_ATTR Matrix<kUnknowns, kUnknowns> reduced(const Scatter& scatter, const Cholesky& cholesky)
+HWY_ATTR HWY_INLINE Matrix<kUnknowns, kUnknowns> reduced(const Scatter& scatter, const Cholesky& cholesky)
 {
   Matrix<kUnknowns, kUnknowns> K;
   UNROLLED
@@ -209,9 +210,9 @@ struct Tridiagonal
 {
   Vector<kUnknowns> diagonal;
   Vector<kUnknowns> below;  // the last is not used
-  Real trace;
+  Real trace = Real(0.0);
 
-  HWY_ATTR explicit Tridiagonal(Matrix<kUnknowns, kUnknowns>& A)
+  HWY_ATTR HWY_INLINE explicit Tridiagonal(Matrix<kUnknowns, kUnknowns>& A)
   {
     UNROLLED
     for (int k = 0; k < kUnknowns; ++k) {
@@ -228,11 +229,11 @@ struct Tridiagonal
   }
 
   /// x := H x
-  HWY_ATTR void transformBack(Vector<kUnknowns>& x) const
+  HWY_ATTR HWY_INLINE void transformBack(Vector<kUnknowns>& x) const
   {
     UNROLLED
     for (int k = kUnknowns - 3; k >= 0; --k) {
-      Real product;
+      Real product(0.0);
       UNROLLED
       for (int i = k + 1; i < kUnknowns; ++i) {
         product += normal_[k][i] * x[i];
@@ -247,10 +248,10 @@ struct Tridiagonal
 
 private:
   /// Reflects what is below the diagonal of column k onto its first entry.
-  HWY_ATTR void reflect(Matrix<kUnknowns, kUnknowns>& A, int k)
+  HWY_ATTR HWY_INLINE void reflect(Matrix<kUnknowns, kUnknowns>& A, int k)
   {
     Vector<kUnknowns>& v = normal_[k];
-    Real squared_norm;
+    Real squared_norm(0.0);
     UNROLLED
     for (int i = k + 1; i < kUnknowns; ++i) {
       v[i] = A[i][k];
@@ -264,10 +265,10 @@ private:
     weight_[k] = choose(Real(0.0) < half_length, Real(1.0) / half_length, Real(0.0));
 
     Vector<kUnknowns> p;
-    Real product;
+    Real product(0.0);
     UNROLLED
     for (int i = k + 1; i < kUnknowns; ++i) {
-      Real sum;
+      Real sum(0.0);
       UNROLLED
       for (int j = k + 1; j < kUnknowns; ++j) {
         sum += (j <= i ? A[i][j] : A[j][i]) * v[j];
@@ -300,9 +301,9 @@ HWY_ATTR HWY_INLINE Real awayFromZero(Real pivot)
 }
 
 /// Number of eigenvalues below `shift`: negative pivots (Sylvester's law of inertia).
-HWY_ATTR Real eigenvaluesBelow(const Tridiagonal& T, Real shift)
+HWY_ATTR HWY_INLINE Real eigenvaluesBelow(const Tridiagonal& T, Real shift)
 {
-  Real count, pivot(1.0);
+  Real count(0.0), pivot(1.0);
   UNROLLED
   for (int i = 0; i < kUnknowns; ++i) {
     const Real coupling = i > 0 ? T.below[i - 1] * T.below[i - 1] / pivot : Real();
@@ -320,7 +321,7 @@ struct SmallestEigenvalue
   Real value;
   Condition converged;
 
-  HWY_ATTR SmallestEigenvalue(const Tridiagonal& T, Real rounding) : converged(rounding < rounding)
+  HWY_ATTR HWY_INLINE SmallestEigenvalue(const Tridiagonal& T, Real rounding) : converged(rounding < rounding)
   {
     constexpr int kMostSteps = 24;
     const Real degree = static_cast<double>(kUnknowns);
@@ -328,12 +329,12 @@ struct SmallestEigenvalue
     for (int step = 0; step < kMostSteps && !hn::AllTrue(D(), converged); ++step) {
       // Sums over the eigenvalues of 1 / (value - eigenvalue) and of its square: first and second derivative of the
       // logarithm of the characteristic polynomial, which is the product of the pivots.
-      Real first, second, smallest_pivot = std::numeric_limits<double>::infinity();
-      Real inverse, slope, bend;  // of the last pivot: 1 / pivot, pivot' / pivot, pivot'' / pivot
+      Real first(0.0), second(0.0), smallest_pivot = std::numeric_limits<double>::infinity();
+      Real inverse(0.0), slope(0.0), bend(0.0);  // of the last pivot: 1 / pivot, pivot' / pivot, pivot'' / pivot
       UNROLLED
       for (int i = 0; i < kUnknowns; ++i) {
         Real pivot = T.diagonal[i] - value;
-        Real new_slope(-1.0), new_bend;
+        Real new_slope(-1.0), new_bend(0.0);
         if (i > 0) {
           const Real coupling = T.below[i - 1] * T.below[i - 1] * inverse;
           pivot -= coupling;
@@ -359,7 +360,7 @@ struct SmallestEigenvalue
 
 /// The unit eigenvector of an eigenvalue, from the twisted factorization whose pivot is smallest (K. V. Fernando, "On
 /// computing an eigenvector of a tridiagonal matrix", SIAM J. Matrix Anal. Appl. 18, 1997).
-HWY_ATTR Vector<kUnknowns> eigenvector(const Tridiagonal& T, Real eigenvalue)
+HWY_ATTR HWY_INLINE Vector<kUnknowns> eigenvector(const Tridiagonal& T, Real eigenvalue)
 {
   Vector<kUnknowns> forward, backward;  // pivots
   UNROLLED
@@ -372,7 +373,7 @@ HWY_ATTR Vector<kUnknowns> eigenvector(const Tridiagonal& T, Real eigenvalue)
     const Real coupling = i + 1 < kUnknowns ? T.below[i] * T.below[i] / backward[i + 1] : Real();
     backward[i] = awayFromZero(T.diagonal[i] - eigenvalue - coupling);
   }
-  Real smallest = std::numeric_limits<double>::infinity(), twist;
+  Real smallest = std::numeric_limits<double>::infinity(), twist(0.0);
   UNROLLED
   for (int i = 0; i < kUnknowns; ++i) {
     const Real pivot = magnitude(forward[i] + backward[i] - (T.diagonal[i] - eigenvalue));
@@ -381,7 +382,7 @@ HWY_ATTR Vector<kUnknowns> eigenvector(const Tridiagonal& T, Real eigenvalue)
     twist = choose(better, Real(static_cast<double>(i)), twist);
   }
   Vector<kUnknowns> x;
-  Real squared_norm;
+  Real squared_norm(0.0);
   UNROLLED
   for (int i = 0; i < kUnknowns; ++i) {
     const Real place = static_cast<double>(i);
@@ -436,7 +437,7 @@ HWY_ATTR void fitLanes(QuadricFits& fits, std::size_t begin)
     c[p] = y[kLinear + p];
   }
   cholesky.solveBackward(c);
-  Real constant;
+  Real constant(0.0);
   UNROLLED
   for (int p = 0; p < kQuadratic; ++p) {
     const auto [a, b] = kPairs[p];

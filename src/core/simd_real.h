@@ -25,9 +25,9 @@ struct Real
 
   hwy::HWY_NAMESPACE::Vec<D> lanes;
 
-  HWY_ATTR Real() : lanes(hwy::HWY_NAMESPACE::Zero(Real::D())) {}
-  HWY_ATTR Real(hwy::HWY_NAMESPACE::Vec<D> v) : lanes(v) {}
-  HWY_ATTR Real(double v) : lanes(hwy::HWY_NAMESPACE::Set(Real::D(), v)) {}
+  Real() = default;
+  HWY_ATTR HWY_INLINE Real(hwy::HWY_NAMESPACE::Vec<D> v) : lanes(v) {}
+  HWY_ATTR HWY_INLINE Real(double v) : lanes(hwy::HWY_NAMESPACE::Set(Real::D(), v)) {}
 };
 using Condition = hwy::HWY_NAMESPACE::Mask<Real::D>;
 

@@ -34,7 +34,7 @@ HWY_ATTR void sumScanLines(const float* depth, std::size_t size, std::size_t lin
 {
   const LineLanes d;
   const hn::Rebind<float, LineLanes> single;
-  Real n, i, ii, y, iy;
+  Real n(0.0), i(0.0), ii(0.0), y(0.0), iy(0.0);
   for (std::size_t pixel = 0;; ++pixel) {
     double* before = sums + pixel * kLineSums * kScanLines + line;
     hn::StoreU(n.lanes, d, before);

@@ -63,15 +63,10 @@ struct SphereScan
     // False for NaN: what was not measured is in no sphere, and nowhere near.
     const auto inside = hn::And(counts, hn::Le(squared, hn::Set(f, squared_radius)));
     const auto range_inside = hn::IfThenElse(inside, range, infinity);
-    const auto range_in_window = hn::IfThenElse(hn::And(counts, hn::Lt(range, infinity)), range, infinity);
-    if constexpr (std::is_same_v<Tag, F>) {
-      closest = hn::Min(closest, range_inside);
-      closest_in_window = hn::Min(closest_in_window, range_in_window);
-    } else {
-      rest_closest = std::min(rest_closest, hn::GetLane(range_inside));
-      rest_closest_in_window = std::min(rest_closest_in_window, hn::GetLane(range_in_window));
-    }
+    keepSmallest(f, range_inside, closest, rest_closest);
     if constexpr (Keep) {
+      const auto range_in_window = hn::IfThenElse(hn::And(counts, hn::Lt(range, infinity)), range, infinity);
+      keepSmallest(f, range_in_window, closest_in_window, rest_closest_in_window);
       const Compaction<Tag> kept(inside);
       if (kept.count > 0) {
         const hn::Rebind<std::uint32_t, Tag> u;
@@ -83,6 +78,16 @@ struct SphereScan
       points += kept.count;
     } else {
       points += hn::CountTrue(f, inside);
+    }
+  }
+
+  template <class Tag>
+  HWY_ATTR HWY_INLINE static void keepSmallest(Tag, hn::Vec<Tag> values, Floats& smallest, float& rest)
+  {
+    if constexpr (std::is_same_v<Tag, F>) {
+      smallest = hn::Min(smallest, values);
+    } else {
+      rest = std::min(rest, hn::GetLane(values));
     }
   }
 
@@ -103,8 +108,10 @@ HWY_ATTR HWY_INLINE SphereSurvey scanSphere(const PixelRows& window, const float
     const std::size_t begin = window.first + row * window.stride;
     scanRow(begin, begin + window.columns, window.points, scan);
   }
-  return {scan.points, std::min(scan.rest_closest, hn::GetLane(hn::MinOfLanes(F(), scan.closest))),
-          std::min(scan.rest_closest_in_window, hn::GetLane(hn::MinOfLanes(F(), scan.closest_in_window)))};
+  const auto smallest = [](Floats values, float rest)
+                            HWY_ATTR { return std::min(rest, hn::GetLane(hn::MinOfLanes(F(), values))); };
+  return {scan.points, smallest(scan.closest, scan.rest_closest),
+          Keep ? smallest(scan.closest_in_window, scan.rest_closest_in_window) : 0.0F};
 }
 
 HWY_ATTR SphereSurvey surveySphere(const PixelRows& window, const float center[3], float squared_radius)

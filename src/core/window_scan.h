@@ -39,9 +39,10 @@ struct SphereSurvey
   float closest_in_window;  ///< the same of all points of the rectangle
 };
 
+/// Looks at the sphere only: closest_in_window, which may be anything then, is zero.
 SphereSurvey surveySphere(const PixelRows& window, const float center[3], float squared_radius);
 
-/// The same, and copies the points of the sphere, in the order of their indices.
+/// Copies the points of the sphere, too, in the order of their indices.
 SphereSurvey gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
                           const GatheredPoints& gathered);
 
