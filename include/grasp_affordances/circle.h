@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include <optional>
-#include <vector>
 
 namespace grasp_affordances
 {
@@ -29,11 +28,17 @@ std::optional<Circle> fitCircle(const Neighborhood& neighborhood, const Eigen::V
 std::optional<Circle> fitCircle(const Moments& moments, double scale, const Eigen::Vector3d& first,
                                 const Eigen::Vector3d& second);
 
+/// Sums over points of a plane (m), where s = xx + yy.
+struct PlaneMoments
+{
+  double count = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, sx = 0.0, sy = 0.0, ss = 0.0;
+};
+
 /// Circle through points of a plane by Taubin's method: the algebraic distance over its gradient, without the bias
 /// towards small radii (G. Taubin, "Estimation of planar curves, surfaces and nonplanar space curves defined by
 /// implicit equations", PAMI 13, 1991; Newton's method as in N. Chernov, "Circular and linear regression", 2010,
-/// section 5.9). Empty for fewer than three points and for points on a line. `center` and `mean` in the points' own
-/// frame.
-std::optional<Circle> fitCircleTaubin(const std::vector<Eigen::Vector2d>& points);
+/// section 5.9). The origin should be no farther from the points than a few radii. Empty for fewer than three points
+/// and for points on a line. `center` and `mean` in the points' own frame.
+std::optional<Circle> fitCircleTaubin(const PlaneMoments& moments);
 
 }  // namespace grasp_affordances

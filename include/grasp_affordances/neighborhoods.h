@@ -68,6 +68,9 @@ public:
   /// The k measured points nearest to `center`, or all where there are fewer; the result's radius is the distance of
   /// the last of them.
   virtual void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const = 0;
+
+  /// The range image that is searched; null for a cloud without one.
+  virtual const RangeImage* image() const { return nullptr; }
 };
 
 /// Searches an organized cloud in the window of pixels that the sphere projects to. `points` is the number of measured

@@ -59,6 +59,7 @@ public:
 
   const Cloud& cloud() const { return *cloud_; }
   const PinholeIntrinsics& intrinsics() const { return intrinsics_; }
+  double margin() const { return margin_; }  ///< pixels, by which points may be off their own
 
   /// The pixels that a sphere projects to: contains every measured point within the sphere.
   PixelWindow window(const Eigen::Vector3d& center, double radius) const;

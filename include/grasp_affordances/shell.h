@@ -6,10 +6,8 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <vector>
+#include <memory>
 
 namespace grasp_affordances
 {
@@ -76,72 +74,17 @@ struct ShellSurroundings
 class ShellSearch
 {
 public:
+  ShellSearch();
+  ~ShellSearch();
+  ShellSearch(ShellSearch&&) noexcept;
+  ShellSearch& operator=(ShellSearch&&) noexcept;
+
   ShellSearchResult search(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
                            const HandGeometry& hand, const ShellConfig& config);
 
 private:
-  struct AxisPoint
-  {
-    Eigen::Vector2d across;  // m, from the axis
-    double along;            // m, on the axis from the cylinder's origin
-    double radial;           // m, distance from the axis
-  };
-  struct Extent
-  {
-    double begin = 0.0, end = 0.0;  // m, along the axis
-    std::uint32_t inside = 0, in_gap = 0, hidden_in_gap = 0;
-    double length() const { return end - begin; }
-  };
-  struct Slices
-  {
-    std::size_t count = 1;
-    double thickness = 0.0;  // m
-    double begin = 0.0;      // m along the axis, of the first
-  };
-  struct Axis  // with the two directions across it
-  {
-    explicit Axis(const FittedCylinder& cylinder);
-    Eigen::Vector3d origin, direction, first, second;
-  };
-  // Points per radius step and slice, up to some radius that grows with the steps.
-  class Counts
-  {
-  public:
-    void reset(std::size_t steps, std::size_t slices);
-    void add(double radius, std::size_t slice, double first_radius, double radius_step);
-    void accumulate();
-    std::uint32_t operator()(std::size_t step, std::size_t slice) const { return counts_[step * slices_ + slice]; }
-
-  private:
-    std::size_t steps_ = 0, slices_ = 0;
-    std::vector<std::uint32_t> counts_;
-  };
-
-  static Slices makeSlices(const ShellConfig& config, double spacing);
-  ShellSearchResult searchAbout(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
-                                const HandGeometry& hand, const ShellConfig& config);
-  std::optional<FittedCylinder> refit(const FittedCylinder& cylinder, const ShellSearchResult& found,
-                                      const HandGeometry& hand, double radius_step);
-  void gatherPoints(const NeighborhoodSearch& cloud, const Axis& axis, double outer_radius,
-                    std::vector<AxisPoint>& points);
-  std::size_t sliceOf(const AxisPoint& point) const;
-  void countPoints(double first_radius, double depth_error, const HandGeometry& hand, const ShellConfig& config);
-  void findUnseenSlices(const RangeImage* image, const Axis& axis, double radius, const HandGeometry& hand);
-  std::uint32_t gapPoints(std::size_t step, std::size_t slice) const;
-  std::uint32_t hiddenGapPoints(std::size_t step, std::size_t slice) const;
-  Extent extentOf(std::size_t step, std::size_t first_slice, std::size_t last_slice) const;
-  Extent measuredExtent(std::size_t step, double points_to_block_slice) const;
-  Extent refinedExtent(const Extent& extent, double inner_radius, double outer_radius, double margin,
-                       double max_length) const;
-
-  Slices slices_;
-  Neighborhood sphere_;
-  std::vector<AxisPoint> points_, hidden_points_;
-  std::vector<Eigen::Vector2d> inside_;
-  std::vector<bool> unseen_;  // slices
-  std::size_t steps_ = 0;
-  Counts fill_, inner_, outer_;         // of the points: up to the fill, to the inner and to the outer radius
-  Counts hidden_inner_, hidden_outer_;  // of the hidden points
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
 };
 
 }  // namespace grasp_affordances

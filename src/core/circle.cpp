@@ -98,26 +98,26 @@ std::optional<Circle> fitCircle(const Moments& moments, double scale, const Eige
   return circle;
 }
 
-std::optional<Circle> fitCircleTaubin(const std::vector<Eigen::Vector2d>& points)
+std::optional<Circle> fitCircleTaubin(const PlaneMoments& moments)
 {
-  if (points.size() < 3) {
+  if (moments.count < 3) {
     return std::nullopt;
   }
-  const auto n = static_cast<double>(points.size());
+  const double n = moments.count;
   Circle circle;
-  for (const Eigen::Vector2d& p : points) {
-    circle.mean += p / n;
-  }
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d third = Eigen::Vector2d::Zero();
-  double fourth = 0.0;
-  for (const Eigen::Vector2d& p : points) {
-    const Eigen::Vector2d q = p - circle.mean;
-    const double squared = q.squaredNorm();
-    scatter += q * q.transpose() / n;
-    third += squared * q / n;
-    fourth += squared * squared / n;
-  }
+  circle.mean = Eigen::Vector2d(moments.x, moments.y) / n;
+
+  // From the origin to the mean.
+  const Eigen::Vector2d& mean = circle.mean;
+  const double squared_mean = mean.squaredNorm(), square = (moments.xx + moments.yy) / n;
+  Eigen::Matrix2d products;
+  products << moments.xx, moments.xy, moments.xy, moments.yy;
+  products /= n;
+  const Eigen::Vector2d cubes = Eigen::Vector2d(moments.sx, moments.sy) / n;
+  const Eigen::Matrix2d scatter = products - mean * mean.transpose();
+  const Eigen::Vector2d third = cubes - square * mean - 2.0 * scatter * mean;
+  const double fourth = moments.ss / n - 4.0 * mean.dot(cubes) + 4.0 * mean.dot(products * mean) +
+                        2.0 * squared_mean * square - 3.0 * squared_mean * squared_mean;
   const double variance = scatter.trace(), determinant = scatter.determinant();
   if (!(determinant > 1e-12 * variance * variance)) {
     return std::nullopt;

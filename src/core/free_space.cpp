@@ -1,32 +1,97 @@
 #include "grasp_affordances/free_space.h"
 
+#include "core/pixel_lookup.h"
+
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace grasp_affordances
 {
+namespace
+{
+
+/// A fixed number of points, and what the sensor measured at their pixels.
+template <std::size_t Points>
+class Lattice
+{
+public:
+  void add(const Eigen::Vector3d& point)
+  {
+    x_[size_] = point.x();
+    y_[size_] = point.y();
+    z_[size_] = point.z();
+    ++size_;
+  }
+
+  /// Calls visit(point, measured) for the points whose pixel measured something.
+  template <typename Visitor>
+  void visitMeasured(const RangeImage& image, Visitor&& visit)
+  {
+    const Cloud& cloud = image.cloud();
+    const PinholeIntrinsics& camera = image.intrinsics();
+    const double* const points[] = {x_.data(), y_.data(), z_.data()};
+    lookUpPixels({camera.fx, camera.fy, camera.cx, camera.cy, static_cast<double>(cloud.width),
+                  static_cast<double>(cloud.height)},
+                 points, kRoom, pixels_.data());
+    for (std::size_t i = 0; i < Points; ++i) {
+      if (pixels_[i] < 0.0) {
+        continue;
+      }
+      const auto pixel = static_cast<std::size_t>(pixels_[i]);
+      if (cloud.measured(pixel)) {
+        visit(Eigen::Vector3d(x_[i], y_[i], z_[i]), Eigen::Vector3d(cloud.point(pixel).cast<double>()));
+      }
+    }
+  }
+
+private:
+  static constexpr std::size_t kRoom = (Points + kLookupGroup - 1) / kLookupGroup * kLookupGroup;
+
+  std::array<double, kRoom> x_{}, y_{}, z_{}, pixels_{};  // zero beyond the points: seen by no pixel
+  std::size_t size_ = 0;
+};
+
+/// Cosine and sine of the middles of equal parts of a turn.
+template <std::size_t Parts>
+std::array<Eigen::Vector2d, Parts> directionsAround()
+{
+  std::array<Eigen::Vector2d, Parts> directions;
+  for (std::size_t i = 0; i < Parts; ++i) {
+    const double angle = 2 * M_PI * (static_cast<double>(i) + 0.5) / Parts;
+    directions[i] = {std::cos(angle), std::sin(angle)};
+  }
+  return directions;
+}
+
+}  // namespace
 
 double observedFreeShare(const RangeImage& image, const ShellSearchResult& shell, const Eigen::Vector3d& axis,
                          const Eigen::Vector3d& normal, double thickness)
 {
   constexpr int kAlong = 6, kAround = 24, kRadial = 2;
+  static const auto kDirections = directionsAround<kAround>();
   const Eigen::Vector3d side = axis.cross(normal);
-  int free = 0;
-  for (int a = 0; a < kAlong; ++a) {
-    const double along = shell.length * ((a + 0.5) / kAlong - 0.5);
-    for (int b = 0; b < kAround; ++b) {
-      const double angle = 2 * M_PI * (b + 0.5) / kAround;
-      const Eigen::Vector3d radial = std::cos(angle) * normal + std::sin(angle) * side;
-      for (int c = 0; c < kRadial; ++c) {
-        const double distance = shell.inner_radius + thickness * (c + 0.5) / kRadial;
-        const Eigen::Vector3d point = shell.centroid + along * axis + distance * radial;
-        const auto pixel = image.pixel(point);
-        // False for NaN: nothing was measured there.
-        free += pixel && image.cloud().point(*pixel).cast<double>().squaredNorm() > point.squaredNorm() ? 1 : 0;
-      }
+  std::array<Eigen::Vector3d, kAround * kRadial> ring;
+  for (int b = 0; b < kAround; ++b) {
+    const Eigen::Vector3d radial = kDirections[b].x() * normal + kDirections[b].y() * side;
+    for (int c = 0; c < kRadial; ++c) {
+      ring[b * kRadial + c] = (shell.inner_radius + thickness * (c + 0.5) / kRadial) * radial;
     }
   }
+  Lattice<kAlong * kAround * kRadial> lattice;
+  for (int a = 0; a < kAlong; ++a) {
+    const Eigen::Vector3d center = shell.centroid + shell.length * ((a + 0.5) / kAlong - 0.5) * axis;
+    for (const Eigen::Vector3d& offset : ring) {
+      lattice.add(center + offset);
+    }
+  }
+  int free = 0;
+  lattice.visitMeasured(image, [&](const Eigen::Vector3d& point, const Eigen::Vector3d& measured) {
+    free += measured.squaredNorm() > point.squaredNorm() ? 1 : 0;
+  });
   return static_cast<double>(free) / (kAlong * kAround * kRadial);
 }
 
@@ -35,25 +100,22 @@ double silhouetteCoverage(const RangeImage& image, const ShellSearchResult& shel
 {
   constexpr int kAlong = 10, kAcross = 9;
   const Eigen::Vector3d side = axis.cross(normal);
-  int inside = 0, behind = 0;
+  Lattice<kAlong * kAcross> lattice;
   for (int a = 0; a < kAlong; ++a) {
-    const double along = shell.length * ((a + 0.5) / kAlong - 0.5);
+    const Eigen::Vector3d center = shell.centroid + shell.length * ((a + 0.5) / kAlong - 0.5) * axis;
     for (int b = 0; b < kAcross; ++b) {
-      const double across = shell.inner_radius * (2 * (b + 0.5) / kAcross - 1.0);
-      const Eigen::Vector3d point = shell.centroid + along * axis + across * side;
-      const auto pixel = image.pixel(point);
-      if (!pixel || !image.cloud().measured(*pixel)) {
-        continue;
-      }
-      const Eigen::Vector3d measured = image.cloud().point(*pixel).cast<double>();
-      const Eigen::Vector3d offset = measured - shell.centroid;
-      if ((offset - offset.dot(axis) * axis).norm() <= shell.inner_radius) {
-        ++inside;
-      } else if (measured.squaredNorm() > point.squaredNorm()) {
-        ++behind;
-      }
+      lattice.add(center + shell.inner_radius * (2 * (b + 0.5) / kAcross - 1.0) * side);
     }
   }
+  int inside = 0, behind = 0;
+  lattice.visitMeasured(image, [&](const Eigen::Vector3d& point, const Eigen::Vector3d& measured) {
+    const Eigen::Vector3d offset = measured - shell.centroid;
+    if ((offset - offset.dot(axis) * axis).norm() <= shell.inner_radius) {
+      ++inside;
+    } else if (measured.squaredNorm() > point.squaredNorm()) {
+      ++behind;
+    }
+  });
   return inside + behind == 0 ? 0.0 : static_cast<double>(inside) / (inside + behind);
 }
 

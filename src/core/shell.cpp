@@ -2,44 +2,22 @@
 
 #include "grasp_affordances/circle.h"
 
+#include "core/axis_points.h"
+#include "core/axis_slices.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
+#include <optional>
+#include <vector>
 
 namespace grasp_affordances
 {
-namespace
-{
-
-/// Radius of the shell after a number of steps: one expression, so that all counts agree on borderline points.
-double steppedRadius(double first, double step, std::size_t steps)
-{
-  return first + step * static_cast<double>(steps);
-}
-
-/// The first step at which the radius reaches a distance from the axis; `steps` where none does.
-std::size_t firstStepReaching(double distance, double first, double step, std::size_t steps)
-{
-  if (distance <= first) {
-    return 0;
-  }
-  if (step == 0.0) {
-    return steps;
-  }
-  const double guess = std::ceil((distance - first) / step);
-  std::size_t j = guess < static_cast<double>(steps) ? static_cast<std::size_t>(guess) : steps;
-  while (j > 0 && distance <= steppedRadius(first, step, j - 1)) {
-    --j;
-  }
-  while (j < steps && distance > steppedRadius(first, step, j)) {
-    ++j;
-  }
-  return j;
-}
-
-}  // namespace
 
 PointThresholds pointThresholds(const ShellConfig& config, double spacing)
 {
@@ -54,103 +32,37 @@ PointThresholds pointThresholds(const ShellConfig& config, double spacing)
   return thresholds;
 }
 
-ShellSearchResult ShellSearch::search(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
-                                      const HandGeometry& hand, const ShellConfig& config)
+namespace
 {
-  const ShellSearchResult found = searchAbout(surroundings, cylinder, hand, config);
-  if (!config.recenter || found.status != ShellSearchResult::found) {
-    return found;
-  }
-  const auto refitted = refit(cylinder, found, hand, config.radius_step);
-  return refitted ? searchAbout(surroundings, *refitted, hand, config) : found;
-}
 
-ShellSearchResult ShellSearch::searchAbout(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
-                                           const HandGeometry& hand, const ShellConfig& config)
+/// What a shell holds of a slice.
+struct SliceCounts
 {
-  ShellSearchResult result;
-  if (!(cylinder.radius <= hand.capture_radius)) {
-    return result;
-  }
-  const double spacing = surroundings.spacing;
-  const double depth_error =
-      surroundings.image != nullptr ? config.depth_error * cylinder.origin.z() * cylinder.origin.z() : 0.0;
-  slices_ = makeSlices(config, spacing);
-  steps_ = static_cast<std::size_t>((hand.capture_radius - cylinder.radius) / config.radius_step) + 1;
-  const Axis axis(cylinder);
-  const double outermost = hand.capture_radius + hand.finger_thickness;
-  gatherPoints(surroundings.cloud, axis, outermost, points_);
-  hidden_points_.clear();
-  if (surroundings.hidden != nullptr) {
-    gatherPoints(*surroundings.hidden, axis, outermost, hidden_points_);
-  }
-  countPoints(cylinder.radius, depth_error, hand, config);
-  findUnseenSlices(surroundings.image, axis, cylinder.radius, hand);
+  ShellCounts points, hidden;
 
-  const PointThresholds thresholds = pointThresholds(config, spacing);
-  const double points_to_block_slice =
-      std::max(2.0, 2.0 * thresholds.gap_points_to_block * slices_.thickness / config.clearance_length);
-  const auto clear_and_occupied = [&](const Extent& extent) {
-    const double lengths = std::max(1.0, extent.length() / config.clearance_length);
-    return extent.inside >= lengths * thresholds.min_points_inside &&
-           extent.in_gap + extent.hidden_in_gap < lengths * thresholds.gap_points_to_block;
-  };
-  for (std::size_t j = 0; j < steps_; ++j) {
-    Extent extent =
-        config.measure_length ? measuredExtent(j, points_to_block_slice) : extentOf(j, 0, slices_.count - 1);
-    if (!clear_and_occupied(extent)) {
-      continue;
-    }
-    const double radius = steppedRadius(cylinder.radius, config.radius_step, j);
-    if (config.measure_length) {
-      extent =
-          refinedExtent(extent, radius, radius + hand.finger_thickness, std::max(spacing / 2, 1e-6), config.max_length);
-      if (extent.length() < config.min_length || !clear_and_occupied(extent)) {
-        result.status = ShellSearchResult::too_short;
-        continue;
-      }
-    }
-    result.status = ShellSearchResult::found;
-    result.centroid = cylinder.origin + (extent.begin + extent.end) / 2 * cylinder.axis;
-    result.inner_radius = radius;
-    result.length = extent.length();
-    result.points_inside = extent.inside;
-    result.points_in_gap = extent.in_gap;
-    return result;
-  }
-  return result;
-}
+  std::uint32_t inGap() const { return points.up_to_outer - points.inside; }
+  std::uint32_t hiddenInGap() const { return hidden.up_to_outer - hidden.inside; }
+};
 
-/// The cylinder about the same direction through the points inside a shell, which was just found. The radius is the
-/// surface's, up to the next whole number of steps below the capture radius: so the last shell that is tried is the
-/// largest that the hand can enclose.
-std::optional<FittedCylinder> ShellSearch::refit(const FittedCylinder& cylinder, const ShellSearchResult& found,
-                                                 const HandGeometry& hand, double radius_step)
+/// Slices that follow one another, and what a shell holds of them.
+struct Extent
 {
-  const double middle = (found.centroid - cylinder.origin).dot(cylinder.axis);
-  inside_.clear();
-  for (const AxisPoint& point : points_) {
-    if (std::abs(point.along - middle) <= found.length / 2 && point.radial <= found.inner_radius) {
-      inside_.push_back(point.across);
-    }
+  std::size_t first_slice = 0, last_slice = 0;
+  double begin = 0.0, end = 0.0;  // m, along the axis
+  std::uint32_t inside = 0, in_gap = 0, hidden_in_gap = 0;
+
+  double length() const { return end - begin; }
+  void add(const SliceCounts& counts)
+  {
+    inside += counts.points.inside;
+    in_gap += counts.inGap();
+    hidden_in_gap += counts.hiddenInGap();
   }
-  const auto circle = fitCircleTaubin(inside_);
-  if (!circle) {
-    return std::nullopt;
-  }
-  const Axis axis(cylinder);
-  FittedCylinder refitted = cylinder;
-  refitted.origin += circle->center.x() * axis.first + circle->center.y() * axis.second;
-  const double room = hand.capture_radius - circle->radius;
-  constexpr double kRounding = 1.0 + 1e-12;  // or the search, counting the steps back, might lose the last one
-  refitted.radius =
-      room >= 0.0 ? hand.capture_radius - std::floor(room / radius_step) * radius_step * kRounding : circle->radius;
-  return refitted;
-}
+};
 
 // Without a measured length there is one slice, the clearance length. Otherwise their number is odd: the sample is in
 // the middle of the middle one.
-ShellSearch::Slices ShellSearch::makeSlices(const ShellConfig& config, double spacing)
+Slices makeSlices(const ShellConfig& config, double spacing)
 {
   Slices slices;
   slices.thickness = config.clearance_length;
@@ -163,185 +75,307 @@ ShellSearch::Slices ShellSearch::makeSlices(const ShellConfig& config, double sp
   return slices;
 }
 
-ShellSearch::Axis::Axis(const FittedCylinder& cylinder)
-    : origin(cylinder.origin),
-      direction(cylinder.axis),
-      first(direction.unitOrthogonal()),
-      second(direction.cross(first))
+AxisFrame axisFrame(const FittedCylinder& cylinder)
 {
+  const Eigen::Vector3d first = cylinder.axis.unitOrthogonal();
+  AxisFrame frame;
+  Eigen::Map<Eigen::Vector3d>(frame.origin) = cylinder.origin;
+  Eigen::Map<Eigen::Vector3d>(frame.axis) = cylinder.axis;
+  Eigen::Map<Eigen::Vector3d>(frame.first) = first;
+  Eigen::Map<Eigen::Vector3d>(frame.second) = cylinder.axis.cross(first);
+  return frame;
 }
 
-void ShellSearch::gatherPoints(const NeighborhoodSearch& cloud, const Axis& axis, double outer_radius,
-                               std::vector<AxisPoint>& points)
+PlaneMoments planeMoments(const PlaneMomentParts& parts)
 {
-  const double half_length = -slices_.begin;
-  const double sphere = std::hypot(outer_radius, half_length);
-  cloud.withinRadius(axis.origin.cast<float>(), static_cast<float>(1.0001 * sphere), sphere_);
-  points.clear();
-  for (std::size_t i = 0; i < sphere_.size(); ++i) {
-    const Eigen::Vector3d p = sphere_.point(i).cast<double>() - axis.origin;
-    const double along = p.dot(axis.direction);
-    const Eigen::Vector2d across(p.dot(axis.first), p.dot(axis.second));
-    const double radial = across.norm();
-    if (std::abs(along) <= half_length && radial <= outer_radius) {
-      points.push_back({across, along, radial});
-    }
+  std::array<double, kPlaneMoments> sums;
+  for (int m = 0; m < kPlaneMoments; ++m) {
+    sums[m] = std::accumulate(std::begin(parts.of[m]), std::end(parts.of[m]), 0.0);
   }
+  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]};
 }
 
-std::size_t ShellSearch::sliceOf(const AxisPoint& point) const
-{
-  return std::min(static_cast<std::size_t>((point.along - slices_.begin) / slices_.thickness), slices_.count - 1);
-}
+}  // namespace
 
-void ShellSearch::countPoints(double first_radius, double depth_error, const HandGeometry& hand,
-                              const ShellConfig& config)
+struct ShellSearch::Memory
 {
-  const double step = config.radius_step;
-  const double first_outer = first_radius + hand.finger_thickness;
-  for (Counts* counts : {&fill_, &inner_, &outer_, &hidden_inner_, &hidden_outer_}) {
-    counts->reset(steps_, slices_.count);
-  }
-  for (const AxisPoint& point : points_) {
-    const std::size_t slice = sliceOf(point);
-    inner_.add(point.radial, slice, first_radius, step);
-    outer_.add(point.radial, slice, first_outer, step);
-    if (config.min_fill > 0.0) {
-      // Larger shells than this are no longer filled by the point.
-      const double filled = std::max(point.radial / config.min_fill, point.radial + depth_error);
-      fill_.add(filled, slice, first_radius, step);
-    }
-  }
-  for (const AxisPoint& point : hidden_points_) {
-    const std::size_t slice = sliceOf(point);
-    hidden_inner_.add(point.radial, slice, first_radius, step);
-    hidden_outer_.add(point.radial, slice, first_outer, step);
-  }
-  for (Counts* counts : {&fill_, &inner_, &outer_, &hidden_inner_, &hidden_outer_}) {
-    counts->accumulate();
-  }
-}
+  AxisSlices points, hidden;
+  std::vector<SliceCounts> counts;  // slices, in the shell that was looked at last
+};
 
-/// The slices of which the sensor could see nothing: in front of the axis something nearer than the hand reaches was
-/// measured, or nothing.
-void ShellSearch::findUnseenSlices(const RangeImage* image, const Axis& axis, double radius, const HandGeometry& hand)
+namespace
 {
-  unseen_.assign(slices_.count, false);
-  if (image == nullptr) {
+
+/// FitShell about one direction.
+class DirectedSearch
+{
+public:
+  DirectedSearch(const ShellSurroundings& surroundings, const HandGeometry& hand, const ShellConfig& config,
+                 AxisSlices& points, AxisSlices& hidden, std::vector<SliceCounts>& counts)
+      : surroundings_(surroundings),
+        hand_(hand),
+        config_(config),
+        slices_(makeSlices(config, surroundings.spacing)),
+        thresholds_(pointThresholds(config, surroundings.spacing)),
+        points_(points),
+        hidden_(hidden),
+        counts_(counts)
+  {
+    counts_.resize(slices_.count);
+  }
+
+  /// The smallest shell about a cylinder's axis, from its radius on. Its direction is the same from call to call.
+  ShellSearchResult about(const FittedCylinder& cylinder);
+
+  /// The cylinder through the points inside the shell that was found last.
+  std::optional<FittedCylinder> refit() const;
+
+private:
+  void lookAlong(const FittedCylinder& cylinder);
+  ShellBounds boundsOf(double inner_radius) const;
+  bool clearAndOccupied(const Extent& extent) const;
+  bool unseen(std::size_t slice) const;
+  SliceCounts countSlice(std::size_t slice, const ShellBounds& shell) const;
+  Extent clearanceExtent(const ShellBounds& shell) const;
+  bool graspable(std::size_t slice, const ShellBounds& shell) const;
+  Extent measuredExtent(const ShellBounds& shell) const;
+  Extent refinedExtent(const Extent& extent, ShellBounds shell) const;
+
+  const ShellSurroundings& surroundings_;
+  const HandGeometry& hand_;
+  const ShellConfig& config_;
+  const Slices slices_;
+  const PointThresholds thresholds_;
+  AxisSlices &points_, &hidden_;
+  std::vector<SliceCounts>& counts_;  // slices, in the shell that was looked at last
+  std::optional<AxisFrame> frame_;    // of the points
+  FittedCylinder cylinder_;           // that is searched about
+  Extent found_;
+  ShellBounds found_bounds_{};
+};
+
+/// Gathers points around a cylinder's axis, unless those that were gathered before serve as well.
+void DirectedSearch::lookAlong(const FittedCylinder& cylinder)
+{
+  constexpr double kLargestShift = 0.004;  // m, across the axis, of a cylinder fitted anew
+  cylinder_ = cylinder;
+  if (frame_ && (cylinder.origin - asVector(frame_->origin)).norm() <= kLargestShift) {
     return;
   }
-  const Eigen::Vector3d across = 0.5 * radius * axis.direction.cross(axis.origin).normalized();
+  frame_ = axisFrame(cylinder);
+  const double reach = hand_.capture_radius + hand_.finger_thickness + (config_.recenter ? kLargestShift : 0.0);
+  points_.start(&surroundings_.cloud, *frame_, slices_, reach);
+  hidden_.start(surroundings_.hidden, *frame_, slices_, reach);
+}
+
+ShellSearchResult DirectedSearch::about(const FittedCylinder& cylinder)
+{
+  ShellSearchResult result;
+  if (!(cylinder.radius <= hand_.capture_radius)) {
+    return result;
+  }
+  lookAlong(cylinder);
+  const auto steps = static_cast<std::size_t>((hand_.capture_radius - cylinder.radius) / config_.radius_step) + 1;
+  for (std::size_t j = 0; j < steps; ++j) {
+    const double radius = cylinder.radius + config_.radius_step * static_cast<double>(j);
+    const ShellBounds shell = boundsOf(radius);
+    Extent extent = config_.measure_length ? measuredExtent(shell) : clearanceExtent(shell);
+    if (!clearAndOccupied(extent)) {
+      continue;
+    }
+    if (config_.measure_length) {
+      extent = refinedExtent(extent, shell);
+      if (extent.length() < config_.min_length || !clearAndOccupied(extent)) {
+        result.status = ShellSearchResult::too_short;
+        continue;
+      }
+    }
+    result.status = ShellSearchResult::found;
+    result.centroid = cylinder.origin + (extent.begin + extent.end) / 2 * cylinder.axis;
+    result.inner_radius = radius;
+    result.length = extent.length();
+    result.points_inside = extent.inside;
+    result.points_in_gap = extent.in_gap;
+    found_ = extent;
+    found_bounds_ = shell;
+    return result;
+  }
+  return result;
+}
+
+/// About the same direction. The radius is the surface's, up to the next whole number of steps below the capture
+/// radius: so the last shell that is tried is the largest that the hand can enclose.
+std::optional<FittedCylinder> DirectedSearch::refit() const
+{
+  ShellBounds shell = found_bounds_;
+  shell.begin = found_.begin;
+  shell.end = found_.end;
+  PlaneMomentParts parts;
+  for (std::size_t slice = found_.first_slice; slice <= found_.last_slice; ++slice) {
+    addMoments(points_.get(slice, shell.reach), shell, parts);
+  }
+  const auto circle = fitCircleTaubin(planeMoments(parts));
+  if (!circle) {
+    return std::nullopt;
+  }
+  FittedCylinder refitted = cylinder_;
+  refitted.origin = asVector(frame_->origin) + circle->center.x() * asVector(frame_->first) +
+                    circle->center.y() * asVector(frame_->second);
+  const double room = hand_.capture_radius - circle->radius;
+  constexpr double kRounding = 1.0 + 1e-12;  // or the search, counting the steps back, might lose the last one
+  refitted.radius =
+      room >= 0.0 ? hand_.capture_radius - std::floor(room / config_.radius_step) * config_.radius_step * kRounding
+                  : circle->radius;
+  return refitted;
+}
+
+ShellBounds DirectedSearch::boundsOf(double inner_radius) const
+{
+  const Eigen::Vector3d shift = cylinder_.origin - asVector(frame_->origin);
+  ShellBounds shell;
+  shell.center[0] = shift.dot(asVector(frame_->first));
+  shell.center[1] = shift.dot(asVector(frame_->second));
+  shell.begin = slices_.beginOf(0);
+  shell.end = slices_.endOf(slices_.count - 1);
+  const double outer_radius = inner_radius + hand_.finger_thickness;
+  shell.squared_inner = inner_radius * inner_radius;
+  shell.squared_outer = outer_radius * outer_radius;
+  shell.reach = outer_radius + std::hypot(shell.center[0], shell.center[1]);
+  shell.squared_filled = -1.0;
+  if (config_.min_fill > 0.0) {
+    const double depth = cylinder_.origin.z();
+    const double depth_error = surroundings_.image != nullptr ? config_.depth_error * depth * depth : 0.0;
+    const double filled = std::min(config_.min_fill * inner_radius, inner_radius - depth_error);
+    shell.squared_filled = filled < 0.0 ? -1.0 : filled * filled;
+  }
+  return shell;
+}
+
+bool DirectedSearch::clearAndOccupied(const Extent& extent) const
+{
+  const double lengths = std::max(1.0, extent.length() / config_.clearance_length);
+  return extent.inside >= lengths * thresholds_.min_points_inside &&
+         extent.in_gap + extent.hidden_in_gap < lengths * thresholds_.gap_points_to_block;
+}
+
+/// Whether the sensor could see nothing of a slice: in front of the axis something nearer than the hand reaches was
+/// measured, or nothing.
+bool DirectedSearch::unseen(std::size_t slice) const
+{
+  const RangeImage* image = surroundings_.image;
+  if (image == nullptr) {
+    return false;
+  }
   const auto seen = [&](const Eigen::Vector3d& point) {
     const auto pixel = image->pixel(point);
     return pixel && image->cloud().measured(*pixel) &&
-           image->cloud().point(*pixel).cast<double>().norm() > point.norm() - hand.capture_radius;
+           image->cloud().point(*pixel).cast<double>().norm() > point.norm() - hand_.capture_radius;
   };
-  for (std::size_t slice = 0; slice < slices_.count; ++slice) {
-    const double along = slices_.begin + (static_cast<double>(slice) + 0.5) * slices_.thickness;
-    const Eigen::Vector3d middle = axis.origin + along * axis.direction;
-    unseen_[slice] = !seen(middle - across) && !seen(middle) && !seen(middle + across);
+  const double along = (slices_.beginOf(slice) + slices_.endOf(slice)) / 2;
+  const Eigen::Vector3d middle = cylinder_.origin + along * cylinder_.axis;
+  const Eigen::Vector3d across = 0.5 * cylinder_.radius * cylinder_.axis.cross(cylinder_.origin).normalized();
+  return !seen(middle - across) && !seen(middle) && !seen(middle + across);
+}
+
+SliceCounts DirectedSearch::countSlice(std::size_t slice, const ShellBounds& shell) const
+{
+  SliceCounts counts{countPoints(points_.get(slice, shell.reach), shell), {}};
+  const AxisPoints hidden = hidden_.get(slice, shell.reach);
+  if (hidden.size > 0) {
+    counts.hidden = countPoints(hidden, shell);
   }
+  return counts;
 }
 
-void ShellSearch::Counts::reset(std::size_t steps, std::size_t slices)
-{
-  steps_ = steps;
-  slices_ = slices;
-  counts_.assign(steps * slices, 0);
-}
-
-void ShellSearch::Counts::add(double radius, std::size_t slice, double first_radius, double radius_step)
-{
-  const std::size_t step = firstStepReaching(radius, first_radius, radius_step, steps_);
-  if (step < steps_) {
-    ++counts_[step * slices_ + slice];
-  }
-}
-
-void ShellSearch::Counts::accumulate()
-{
-  for (std::size_t i = slices_; i < counts_.size(); ++i) {
-    counts_[i] += counts_[i - slices_];
-  }
-}
-
-std::uint32_t ShellSearch::gapPoints(std::size_t step, std::size_t slice) const
-{
-  return outer_(step, slice) - inner_(step, slice);
-}
-
-std::uint32_t ShellSearch::hiddenGapPoints(std::size_t step, std::size_t slice) const
-{
-  return hidden_outer_(step, slice) - hidden_inner_(step, slice);
-}
-
-ShellSearch::Extent ShellSearch::extentOf(std::size_t step, std::size_t first_slice, std::size_t last_slice) const
+/// Over the clearance length, which is one slice.
+Extent DirectedSearch::clearanceExtent(const ShellBounds& shell) const
 {
   Extent extent;
-  extent.begin = slices_.begin + static_cast<double>(first_slice) * slices_.thickness;
-  extent.end = slices_.begin + static_cast<double>(last_slice + 1) * slices_.thickness;
-  for (std::size_t slice = first_slice; slice <= last_slice; ++slice) {
-    extent.inside += inner_(step, slice);
-    extent.in_gap += gapPoints(step, slice);
-    extent.hidden_in_gap += hiddenGapPoints(step, slice);
+  extent.begin = shell.begin;
+  extent.end = shell.end;
+  extent.add(countSlice(0, shell));
+  return extent;
+}
+
+/// Whether a slice is occupied inside and clear around.
+bool DirectedSearch::graspable(std::size_t slice, const ShellBounds& shell) const
+{
+  const double points_to_block =
+      std::max(2.0, 2.0 * thresholds_.gap_points_to_block * slices_.thickness / config_.clearance_length);
+  const SliceCounts& counts = counts_[slice] = countSlice(slice, shell);
+  const std::uint32_t inside = counts.points.inside;
+  return counts.inGap() + counts.hiddenInGap() < points_to_block &&
+         (inside > counts.points.short_of_filled || (inside == 0 && unseen(slice)));
+}
+
+/// The slices around the sample's that follow one another occupied inside and clear around.
+Extent DirectedSearch::measuredExtent(const ShellBounds& shell) const
+{
+  Extent extent;
+  const std::size_t middle = slices_.count / 2;
+  if (!graspable(middle, shell)) {
+    return extent;
+  }
+  extent.first_slice = extent.last_slice = middle;
+  while (extent.first_slice > 0 && graspable(extent.first_slice - 1, shell)) {
+    --extent.first_slice;
+  }
+  while (extent.last_slice + 1 < slices_.count && graspable(extent.last_slice + 1, shell)) {
+    ++extent.last_slice;
+  }
+  extent.begin = slices_.beginOf(extent.first_slice);
+  extent.end = slices_.endOf(extent.last_slice);
+  for (std::size_t slice = extent.first_slice; slice <= extent.last_slice; ++slice) {
+    extent.add(counts_[slice]);
   }
   return extent;
 }
 
-/// The slices around the sample's that follow one another occupied inside and clear around.
-ShellSearch::Extent ShellSearch::measuredExtent(std::size_t step, double points_to_block_slice) const
+/// From whole slices to the outermost points inside, each of which stands for a surface that goes on by half the
+/// distance between points, but not into slices that are not clear, and not beyond the length that is measured.
+Extent DirectedSearch::refinedExtent(const Extent& extent, ShellBounds shell) const
 {
-  const auto occupied = [&](std::size_t slice) {
-    const std::uint32_t inside = inner_(step, slice);
-    return inside > fill_(step, slice) || (inside == 0 && unseen_[slice]);
-  };
-  const auto graspable = [&](std::size_t slice) {
-    return occupied(slice) && gapPoints(step, slice) + hiddenGapPoints(step, slice) < points_to_block_slice;
-  };
-  const std::size_t middle = slices_.count / 2;
-  if (!graspable(middle)) {
-    return Extent();
+  std::size_t first = extent.first_slice, last = extent.last_slice;
+  while (first < last && counts_[first].points.inside == 0) {
+    ++first;
   }
-  std::size_t first = middle, last = middle;
-  while (first > 0 && graspable(first - 1)) {
-    --first;
+  while (first < last && counts_[last].points.inside == 0) {
+    --last;
   }
-  while (last + 1 < slices_.count && graspable(last + 1)) {
-    ++last;
-  }
-  return extentOf(step, first, last);
-}
-
-/// From whole slices to the outermost points inside, each of which stands for a surface that goes on by `margin`, but
-/// not into slices that are not clear, and not beyond the length that is measured.
-ShellSearch::Extent ShellSearch::refinedExtent(const Extent& extent, double inner_radius, double outer_radius,
-                                               double margin, double max_length) const
-{
+  const double margin = std::max(surroundings_.spacing / 2, 1e-6);
   Extent refined;
-  refined.begin = std::numeric_limits<double>::infinity();
-  refined.end = -refined.begin;
-  for (const AxisPoint& point : points_) {
-    if (point.radial <= inner_radius && point.along >= extent.begin && point.along <= extent.end) {
-      refined.begin = std::min(refined.begin, point.along - margin);
-      refined.end = std::max(refined.end, point.along + margin);
-    }
-  }
-  refined.begin = std::max({refined.begin, extent.begin, -max_length / 2});
-  refined.end = std::min({refined.end, extent.end, max_length / 2});
-  const auto within = [&](const AxisPoint& point) {
-    return point.along >= refined.begin && point.along <= refined.end;
-  };
-  const auto in_gap = [&](const AxisPoint& point) {
-    return within(point) && point.radial > inner_radius && point.radial <= outer_radius;
-  };
-  for (const AxisPoint& point : points_) {
-    refined.inside += within(point) && point.radial <= inner_radius ? 1 : 0;
-    refined.in_gap += in_gap(point) ? 1 : 0;
-  }
-  for (const AxisPoint& point : hidden_points_) {
-    refined.hidden_in_gap += in_gap(point) ? 1 : 0;
+  refined.first_slice = extent.first_slice;
+  refined.last_slice = extent.last_slice;
+  refined.begin = std::max(
+      {insideRange(points_.get(first, shell.reach), shell).first - margin, extent.begin, -config_.max_length / 2});
+  refined.end =
+      std::min({insideRange(points_.get(last, shell.reach), shell).last + margin, extent.end, config_.max_length / 2});
+  shell.begin = refined.begin;
+  shell.end = refined.end;
+  for (std::size_t slice = extent.first_slice; slice <= extent.last_slice; ++slice) {
+    const bool whole = slices_.beginOf(slice) >= refined.begin && slices_.endOf(slice) <= refined.end;
+    refined.add(whole ? counts_[slice] : countSlice(slice, shell));
   }
   return refined;
+}
+
+}  // namespace
+
+ShellSearch::ShellSearch() : memory_(std::make_unique<Memory>()) {}
+ShellSearch::~ShellSearch() = default;
+ShellSearch::ShellSearch(ShellSearch&&) noexcept = default;
+ShellSearch& ShellSearch::operator=(ShellSearch&&) noexcept = default;
+
+ShellSearchResult ShellSearch::search(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
+                                      const HandGeometry& hand, const ShellConfig& config)
+{
+  DirectedSearch search(surroundings, hand, config, memory_->points, memory_->hidden, memory_->counts);
+  const ShellSearchResult found = search.about(cylinder);
+  if (!config.recenter || found.status != ShellSearchResult::found) {
+    return found;
+  }
+  const auto refitted = search.refit();
+  return refitted ? search.about(*refitted) : found;
 }
 
 }  // namespace grasp_affordances

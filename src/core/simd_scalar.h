@@ -171,6 +171,16 @@ Vector<T> MinOfLanes(D, Vector<T> v)
 {
   return v;
 }
+template <class D, typename T>
+Vector<T> MaxOfLanes(D, Vector<T> v)
+{
+  return v;
+}
+template <typename T>
+Vector<T> Floor(Vector<T> v)
+{
+  return {std::floor(v.lane)};
+}
 
 // Comparison, and what is done with masks.
 template <typename T>

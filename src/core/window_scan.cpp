@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "core/window_scan.cpp"
 #include "core/simd.h"
 #include "core/simd_compaction.h"
+#include "core/simd_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace grasp_affordances
@@ -27,26 +28,6 @@ template <class V>
 HWY_ATTR HWY_INLINE V squaredLength(V x, V y, V z)
 {
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
-}
-
-/// Calls scan(tag, index of the first point, mask of the points that count) for all points of a row, as many at a time
-/// as there are lanes; at the end of the arrays one at a time.
-template <class Scan>
-HWY_ATTR HWY_INLINE void scanRow(std::size_t begin, std::size_t end, std::size_t points, Scan&& scan)
-{
-  const F f;
-  std::size_t i = begin;
-  for (; i + hn::Lanes(f) <= end; i += hn::Lanes(f)) {
-    scan(f, i, hn::FirstN(f, hn::Lanes(f)));
-  }
-  if (i < end && i + hn::Lanes(f) <= points) {
-    scan(f, i, hn::FirstN(f, end - i));
-    return;
-  }
-  const Floats1 single;
-  for (; i < end; ++i) {
-    scan(single, i, hn::FirstN(single, 1));
-  }
 }
 
 /// Looks at the points of a window and keeps those of a sphere, if there is where to.

@@ -226,9 +226,14 @@ public:
   BarImage(const BarImage&) = delete;
   BarImage& operator=(const BarImage&) = delete;
 
-  ShellSearchResult search(const ShellConfig& config) const
+  ShellSearchResult search(const ShellConfig& config) const { return search(*search_, config); }
+  ShellSearchResult search(const NeighborhoodSearch& search, const ShellConfig& config) const
   {
-    return ShellSearch().search({*search_, nullptr, &*image_, image_->spacing(kDepth)}, cylinder_, kHand, config);
+    return ShellSearch().search({search, nullptr, &*image_, image_->spacing(kDepth)}, cylinder_, kHand, config);
+  }
+  ShellSearchResult search(ShellSearch& search, const ShellConfig& config) const
+  {
+    return search.search({*search_, nullptr, &*image_, image_->spacing(kDepth)}, cylinder_, kHand, config);
   }
   const RangeImage& image() const { return *image_; }
 
@@ -240,6 +245,35 @@ private:
   std::optional<RangeImage> image_;
   std::unique_ptr<NeighborhoodSearch> search_;
 };
+
+TEST_P(BothPresets, FindTheSameInAnImageAndInATree)
+{
+  const BarImage bar(0.012, 0.045, [](double y) { return y > 0.02 && y < 0.03 ? std::nan("") : 0.0; });
+  const auto in_image = bar.search(config());
+  const auto in_tree = bar.search(*makeTreeSearch(bar.image().cloud()), config());
+  ASSERT_EQ(in_image.status, ShellSearchResult::found);
+  EXPECT_EQ(in_tree.status, ShellSearchResult::found);
+  EXPECT_EQ(in_tree.points_inside, in_image.points_inside);
+  EXPECT_EQ(in_tree.points_in_gap, in_image.points_in_gap);
+  EXPECT_NEAR(in_tree.inner_radius, in_image.inner_radius, 1e-12);
+  EXPECT_NEAR(in_tree.length, in_image.length, 1e-12);
+  EXPECT_LT((in_tree.centroid - in_image.centroid).norm(), 1e-12);
+}
+
+TEST(ShellSearch, IsTheSameAgainWithTheMemoryOfOthers)
+{
+  const BarImage thick(0.02, 0.045, [](double) { return 0.0; }), slim(0.012, 0.03, [](double) { return 0.0; });
+  ShellSearch search;
+  for (const ShellConfig& config : {localizerShell(), paperShell()}) {
+    for (const BarImage* bar : {&thick, &slim, &thick}) {
+      const auto alone = bar->search(config);
+      const auto after = bar->search(search, config);
+      ASSERT_EQ(alone.status, ShellSearchResult::found);
+      EXPECT_EQ(after.centroid, alone.centroid);
+      EXPECT_EQ(after.points_inside, alone.points_inside);
+    }
+  }
+}
 
 TEST(MeasuredLength, GoesOnBehindWhatHidesTheSurface)
 {
