@@ -39,15 +39,16 @@ public:
   /// Appends the cloud's point at `index` if it lies within the sphere.
   void appendPoint(const Cloud& cloud, std::size_t index) { appendRange(cloud, index, index + 1); }
 
-  /// Appends those of the points in a window of an organized cloud that lie within the sphere.
-  SphereSurvey appendWindow(const Cloud& cloud, const PixelWindow& window);
+  /// Appends those of the points in a window of an organized cloud that lie within the sphere. @param with_index
+  /// whether index() is asked for, too: if not, it is unspecified.
+  SphereSurvey appendWindow(const Cloud& cloud, const PixelWindow& window, bool with_index = true);
 
   /// Keeps the k points nearest to the centre, of equally distant ones those with the smaller index, and shrinks the
   /// radius to the k-th distance. Needs at least k points.
   void keepNearest(std::size_t k);
 
 private:
-  SphereSurvey append(const PixelRows& rows);
+  SphereSurvey append(const PixelRows& rows, bool with_index);
 
   std::size_t size_ = 0;
   std::vector<float> x_, y_, z_;

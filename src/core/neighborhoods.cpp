@@ -98,15 +98,15 @@ void Neighborhood::clear(const Eigen::Vector3f& new_center, float new_radius)
 
 void Neighborhood::appendRange(const Cloud& cloud, std::size_t begin, std::size_t end)
 {
-  append({cloud.x.data(), cloud.y.data(), cloud.z.data(), cloud.size(), begin, 1, end - begin, 0});
+  append({cloud.x.data(), cloud.y.data(), cloud.z.data(), cloud.size(), begin, 1, end - begin, 0}, true);
 }
 
-SphereSurvey Neighborhood::appendWindow(const Cloud& cloud, const PixelWindow& window)
+SphereSurvey Neighborhood::appendWindow(const Cloud& cloud, const PixelWindow& window, bool with_index)
 {
-  return append(pixelRows(cloud, window));
+  return append(pixelRows(cloud, window), with_index);
 }
 
-SphereSurvey Neighborhood::append(const PixelRows& rows)
+SphereSurvey Neighborhood::append(const PixelRows& rows, bool with_index)
 {
   const std::size_t needed = size_ + rows.rows * rows.columns + kGatherSlack;
   if (needed > x_.size()) {
@@ -116,8 +116,8 @@ SphereSurvey Neighborhood::append(const PixelRows& rows)
     z_.resize(room);
     index_.resize(room);
   }
-  const SphereSurvey survey =
-      gatherSphere(rows, center.data(), radius * radius, {&x_[size_], &y_[size_], &z_[size_], &index_[size_]});
+  const SphereSurvey survey = gatherSphere(rows, center.data(), radius * radius,
+                                           {&x_[size_], &y_[size_], &z_[size_], with_index ? &index_[size_] : nullptr});
   size_ += survey.points;
   return survey;
 }
@@ -138,7 +138,7 @@ void Neighborhood::keepNearest(std::size_t k)
 
 void WindowSearch::withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const
 {
-  gather(center, radius, result);
+  gather(center, radius, true, result);
 }
 
 SphereView WindowSearch::look(const Eigen::Vector3f& center, float radius) const
@@ -147,11 +147,12 @@ SphereView WindowSearch::look(const Eigen::Vector3f& center, float radius) const
   return {center, radius, window, surveySphere(pixelRows(image_.cloud(), window), center.data(), radius * radius)};
 }
 
-SphereView WindowSearch::gather(const Eigen::Vector3f& center, float radius, Neighborhood& result) const
+SphereView WindowSearch::gather(const Eigen::Vector3f& center, float radius, bool with_index,
+                                Neighborhood& result) const
 {
   const PixelWindow window = image_.window(center.cast<double>(), radius);
   result.clear(center, radius);
-  return {center, radius, window, result.appendWindow(image_.cloud(), window)};
+  return {center, radius, window, result.appendWindow(image_.cloud(), window, with_index)};
 }
 
 void WindowSearch::nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const

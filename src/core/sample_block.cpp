@@ -124,7 +124,8 @@ void SampleBlock::findNeighborhoods(Remaining& samples, bool in_window, const Pr
     if (in_window) {
       const Eigen::Vector3f center = prepared.cloud->point(sample.point);
       const float radius = PreparedCloud::neighborhoodRadius(config);
-      sample.sphere = prepared.windowSearch()->gather(center, radius, *sample.neighborhood);
+      const bool with_index = config.estimation.estimator == Estimator::normals;
+      sample.sphere = prepared.windowSearch()->gather(center, radius, with_index, *sample.neighborhood);
     } else {
       prepared.findNeighborhood(sample.point, config, *sample.neighborhood);
       if (prepared.image) {

@@ -30,8 +30,15 @@ HWY_ATTR HWY_INLINE V squaredLength(V x, V y, V z)
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-/// Looks at the points of a window and keeps those of a sphere, if there is where to.
-template <bool Keep>
+enum class Keeping
+{
+  nothing,
+  points,
+  points_and_indices
+};
+
+/// Looks at the points of a window and keeps those of a sphere.
+template <Keeping Keep>
 struct SphereScan
 {
   template <class Tag>
@@ -45,16 +52,18 @@ struct SphereScan
     const auto inside = hn::And(counts, hn::Le(squared, hn::Set(f, squared_radius)));
     const auto range_inside = hn::IfThenElse(inside, range, infinity);
     keepSmallest(f, range_inside, closest, rest_closest);
-    if constexpr (Keep) {
+    if constexpr (Keep != Keeping::nothing) {
       const auto range_in_window = hn::IfThenElse(hn::And(counts, hn::Lt(range, infinity)), range, infinity);
       keepSmallest(f, range_in_window, closest_in_window, rest_closest_in_window);
       const Compaction<Tag> kept(inside);
       if (kept.count > 0) {
-        const hn::Rebind<std::uint32_t, Tag> u;
         hn::StoreU(kept(px), f, to.x + points);
         hn::StoreU(kept(py), f, to.y + points);
         hn::StoreU(kept(pz), f, to.z + points);
-        hn::StoreU(kept(hn::Add(hn::Set(u, static_cast<std::uint32_t>(i)), hn::Iota(u, 0))), u, to.index + points);
+        if constexpr (Keep == Keeping::points_and_indices) {
+          const hn::Rebind<std::uint32_t, Tag> u;
+          hn::StoreU(kept(hn::Add(hn::Set(u, static_cast<std::uint32_t>(i)), hn::Iota(u, 0))), u, to.index + points);
+        }
       }
       points += kept.count;
     } else {
@@ -80,7 +89,7 @@ struct SphereScan
   float rest_closest = kInfinity, rest_closest_in_window = kInfinity;
 };
 
-template <bool Keep>
+template <Keeping Keep>
 HWY_ATTR HWY_INLINE SphereSurvey scanSphere(const PixelRows& window, const float center[3], float squared_radius,
                                             const GatheredPoints& to)
 {
@@ -92,18 +101,19 @@ HWY_ATTR HWY_INLINE SphereSurvey scanSphere(const PixelRows& window, const float
   const auto smallest = [](Floats values, float rest)
                             HWY_ATTR { return std::min(rest, hn::GetLane(hn::MinOfLanes(F(), values))); };
   return {scan.points, smallest(scan.closest, scan.rest_closest),
-          Keep ? smallest(scan.closest_in_window, scan.rest_closest_in_window) : 0.0F};
+          Keep != Keeping::nothing ? smallest(scan.closest_in_window, scan.rest_closest_in_window) : 0.0F};
 }
 
 HWY_ATTR SphereSurvey surveySphere(const PixelRows& window, const float center[3], float squared_radius)
 {
-  return scanSphere<false>(window, center, squared_radius, {});
+  return scanSphere<Keeping::nothing>(window, center, squared_radius, {});
 }
 
 HWY_ATTR SphereSurvey gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
                                    const GatheredPoints& gathered)
 {
-  return scanSphere<true>(window, center, squared_radius, gathered);
+  return gathered.index != nullptr ? scanSphere<Keeping::points_and_indices>(window, center, squared_radius, gathered)
+                                   : scanSphere<Keeping::points>(window, center, squared_radius, gathered);
 }
 
 HWY_ATTR float closestSquaredRange(const float* x, const float* y, const float* z, std::size_t count)

@@ -28,7 +28,7 @@ struct GatheredPoints
   float* x;
   float* y;
   float* z;
-  std::uint32_t* index;
+  std::uint32_t* index;  ///< null: indices are not asked for
 };
 
 /// What a rectangle holds of a sphere.

@@ -22,8 +22,8 @@ public:
   void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const override;
   void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override;
 
-  /// withinRadius, and what the sensor sees of the sphere.
-  SphereView gather(const Eigen::Vector3f& center, float radius, Neighborhood& result) const;
+  /// withinRadius, with the points' indices or without, and what the sensor sees of the sphere.
+  SphereView gather(const Eigen::Vector3f& center, float radius, bool with_index, Neighborhood& result) const;
 
   /// The latter alone, in less time.
   SphereView look(const Eigen::Vector3f& center, float radius) const;
