@@ -1,5 +1,7 @@
 #include "core/prepared_cloud.h"
 
+#include "grasp_affordances/occlusion.h"
+
 #include "core/measured_kernels.h"
 
 #include <algorithm>
@@ -82,14 +84,19 @@ void PreparedCloud::findNeighborhood(std::uint32_t point, const Config& config, 
   }
 }
 
-/// Those of all points in the neighborhoods of all samples.
+/// Those of all points in the neighborhoods of the samples that are not occluded.
 void PreparedCloud::estimateNormals(const Config& config, ThreadTeam& team)
 {
   normals.reset(cloud->size());
   neighborhoods_.resize(team.size());
   team.forEach(static_cast<std::size_t>(config.sampling.samples), [&](std::size_t i, std::size_t member) {
-    findNeighborhood(samplePoint(config, i), config, neighborhoods_[member]);
-    normals.require(neighborhoods_[member]);
+    Neighborhood& neighborhood = neighborhoods_[member];
+    findNeighborhood(samplePoint(config, i), config, neighborhood);
+    const OcclusionConfig& occlusion = config.occlusion;
+    const auto enough = static_cast<std::size_t>(occlusion.max_points_in_front);
+    if (!image || !occlusion.filter || !occluded(*image, neighborhood, enough, occlusion.min_distance_in_front)) {
+      normals.require(neighborhood);
+    }
   });
   const bool sparse = config.estimation.normals_mode == NormalsMode::sparse;
   normals.compute(*cloud, *search, config.estimation.normals_radius, sparse ? SurfaceNormals::kSparseStride : 1, team);

@@ -32,7 +32,10 @@ constexpr std::pair<const char*, const char*> kRatios[] = {{"textbook", "paper"}
                                                            {"paper/pca", "paper"},
                                                            {"paper/normals", "paper"},
                                                            {"localizer/pca", "localizer"},
-                                                           {"localizer/normals", "localizer"}};
+                                                           {"localizer/normals", "localizer"},
+                                                           {"paper/sparse_normals", "paper"},
+                                                           {"paper/unfiltered/sparse_normals", "paper/unfiltered"},
+                                                           {"localizer/sparse_normals", "localizer"}};
 
 struct Repetitions
 {

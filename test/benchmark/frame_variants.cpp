@@ -29,6 +29,9 @@ void applyChange(const std::string& change, Config& config)
     config.hand.capture_radius = 0.048;
   } else if (change == "500_nearest") {
     config.neighborhood.kind = NeighborhoodKind::knn;
+  } else if (change == "sparse_normals") {
+    config.estimation.estimator = Estimator::normals;
+    config.estimation.normals_mode = NormalsMode::sparse;
   } else {
     config.estimation.estimator = enumFromWord<Estimator>("estimator", change);
   }
@@ -57,9 +60,10 @@ std::vector<FrameVariant> makeFrameVariants()
       variants.push_back(makeFrameVariant(pipeline + "/" + change));
     }
   };
-  add("paper", {"2_threads", "1000_samples", "10000_samples", "48_mm", "500_nearest", "pca", "normals", "unfiltered",
-                "unfiltered/2_threads", "unfiltered/pca"});
-  add("localizer", {"2_threads", "1000_samples", "10000_samples", "48_mm", "500_nearest", "pca", "normals"});
+  add("paper", {"2_threads", "1000_samples", "10000_samples", "48_mm", "500_nearest", "pca", "normals",
+                "sparse_normals", "unfiltered", "unfiltered/2_threads", "unfiltered/pca", "unfiltered/sparse_normals"});
+  add("localizer",
+      {"2_threads", "1000_samples", "10000_samples", "48_mm", "500_nearest", "pca", "normals", "sparse_normals"});
   add("textbook", {"unfiltered", "48_mm", "500_nearest", "pca", "normals"});
   return variants;
 }
