@@ -31,7 +31,8 @@ def frame_rows(frames):
         ratio = ('', '')
         if textbook['pipeline'] == 'textbook':
             ratio = (times(textbook['milliseconds']), '%.1f' % (textbook['milliseconds'] / frame['milliseconds']))
-        yield (preset, frame['estimator'], neighborhood, str(frame['samples']), str(frame['threads']),
+        estimator = frame['estimator'] + (', sparse' if 'sparse' in name else '')
+        yield (preset, estimator, neighborhood, str(frame['samples']), str(frame['threads']),
                times(frame['milliseconds']), '%.2f' % frame['microseconds_per_sample'], *ratio)
 
 

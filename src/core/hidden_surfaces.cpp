@@ -240,23 +240,6 @@ void HiddenSurfaces::continueAlong(bool rows, std::size_t tile, const RangeImage
   }
 }
 
-bool HiddenSurfaces::empty(const PixelWindow& window) const
-{
-  const auto tileBegin = [](int pixel) { return static_cast<std::size_t>(std::max(pixel, 0)) / kTile; };
-  const auto tileEnd = [](int pixel, std::size_t tiles) {
-    return std::min((static_cast<std::size_t>(std::max(pixel, 0)) + kTile - 1) / kTile, tiles);
-  };
-  const std::size_t u_begin = tileBegin(window.u_begin), u_end = tileEnd(window.u_end, tile_columns_);
-  for (std::size_t v = tileBegin(window.v_begin); v < tileEnd(window.v_end, tile_rows_); ++v) {
-    for (std::size_t u = u_begin; u < u_end; ++u) {
-      if (tiles_[v * tile_columns_ + u] != 0) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
 Cloud continueSurfaces(const RangeImage& image, double max_width)
 {
   ThreadTeam serial(1);

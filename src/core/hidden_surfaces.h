@@ -23,10 +23,6 @@ public:
 
   const Cloud& cloud() const { return cloud_; }
 
-  /// Whether no surface goes on in a window of pixels; false also where one only comes near it. Much cheaper than to
-  /// look at the window's pixels.
-  bool empty(const PixelWindow& window) const;
-
 private:
   /// Scan lines are every other row or column; a block of them is as wide as a tile.
   static constexpr std::size_t kStride = 2;

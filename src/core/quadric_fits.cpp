@@ -1,16 +1,12 @@
 #include "core/quadric_fits.h"
 
-#include <limits>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/quadric_fits.cpp"
 #include "core/simd.h"
 #include "core/simd_real.h"
-
-// Loops run over a fixed few: unrolled, their indices are constants, and the matrices stay close: more than twice as
-// fast.
-#undef UNROLLED
-#define UNROLLED _Pragma("GCC unroll 9")
+#include "core/simd_symmetric_eigen.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace grasp_affordances
@@ -23,8 +19,7 @@ using D = Real::D;
 static_assert(kFitsAtOnce == kRealLanes);
 constexpr int kLinear = 3;     // x, y, z
 constexpr int kQuadratic = 6;  // xx, yy, zz, xy, yz, xz
-constexpr int kUnknowns = kLinear + kQuadratic;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+static_assert(kUnknowns == kLinear + kQuadratic);
 
 /// A quadratic monomial as the product of two coordinates.
 struct Pair
@@ -44,11 +39,6 @@ constexpr int productIndex(int a, int b = -1, int c = -1, int d = -1)
   }
   return momentIndex(powers[0], powers[1], powers[2]);
 }
-
-template <int Rows, int Columns>
-using Matrix = std::array<std::array<Real, Columns>, Rows>;
-template <int Size>
-using Vector = std::array<Real, Size>;
 
 /// What the eigenproblem (M - lambda N) c = 0 is made of, after elimination of the constant. In the basis of x, y, z
 /// and of the quadratic monomials less their mean gradient N falls apart into the identity and `gradients`.
@@ -203,207 +193,6 @@ HWY_ATTR HWY_INLINE Matrix<kUnknowns, kUnknowns> reduced(const Scatter& scatter,
     }
   }
   return K;
-}
-
-/// A symmetric matrix as H T H', with tridiagonal T and orthogonal H, a product of Householder reflections.
-struct Tridiagonal
-{
-  Vector<kUnknowns> diagonal;
-  Vector<kUnknowns> below;  // the last is not used
-  Real trace = Real(0.0);
-
-  HWY_ATTR HWY_INLINE explicit Tridiagonal(Matrix<kUnknowns, kUnknowns>& A)
-  {
-    UNROLLED
-    for (int k = 0; k < kUnknowns; ++k) {
-      trace += A[k][k];
-    }
-    UNROLLED
-    for (int k = 0; k + 2 < kUnknowns; ++k) {
-      reflect(A, k);
-      diagonal[k] = A[k][k];
-    }
-    diagonal[kUnknowns - 2] = A[kUnknowns - 2][kUnknowns - 2];
-    diagonal[kUnknowns - 1] = A[kUnknowns - 1][kUnknowns - 1];
-    below[kUnknowns - 2] = A[kUnknowns - 1][kUnknowns - 2];
-  }
-
-  /// x := H x
-  HWY_ATTR HWY_INLINE void transformBack(Vector<kUnknowns>& x) const
-  {
-    UNROLLED
-    for (int k = kUnknowns - 3; k >= 0; --k) {
-      Real product(0.0);
-      UNROLLED
-      for (int i = k + 1; i < kUnknowns; ++i) {
-        product += normal_[k][i] * x[i];
-      }
-      product = product * weight_[k];
-      UNROLLED
-      for (int i = k + 1; i < kUnknowns; ++i) {
-        x[i] -= product * normal_[k][i];
-      }
-    }
-  }
-
-private:
-  /// Reflects what is below the diagonal of column k onto its first entry.
-  HWY_ATTR HWY_INLINE void reflect(Matrix<kUnknowns, kUnknowns>& A, int k)
-  {
-    Vector<kUnknowns>& v = normal_[k];
-    Real squared_norm(0.0);
-    UNROLLED
-    for (int i = k + 1; i < kUnknowns; ++i) {
-      v[i] = A[i][k];
-      squared_norm += v[i] * v[i];
-    }
-    const Real norm = squareRoot(squared_norm);
-    const Real first = v[k + 1];
-    below[k] = choose(first < Real(0.0), norm, Real(0.0) - norm);
-    v[k + 1] = first - below[k];
-    const Real half_length = squared_norm + magnitude(first) * norm;  // v'v / 2
-    weight_[k] = choose(Real(0.0) < half_length, Real(1.0) / half_length, Real(0.0));
-
-    Vector<kUnknowns> p;
-    Real product(0.0);
-    UNROLLED
-    for (int i = k + 1; i < kUnknowns; ++i) {
-      Real sum(0.0);
-      UNROLLED
-      for (int j = k + 1; j < kUnknowns; ++j) {
-        sum += (j <= i ? A[i][j] : A[j][i]) * v[j];
-      }
-      p[i] = sum * weight_[k];
-      product += p[i] * v[i];
-    }
-    const Real share = Real(0.5) * product * weight_[k];
-    UNROLLED
-    for (int i = k + 1; i < kUnknowns; ++i) {
-      p[i] -= share * v[i];
-    }
-    UNROLLED
-    for (int i = k + 1; i < kUnknowns; ++i) {
-      UNROLLED
-      for (int j = k + 1; j <= i; ++j) {
-        A[i][j] -= v[i] * p[j] + p[i] * v[j];
-      }
-    }
-  }
-
-  Matrix<kUnknowns, kUnknowns> normal_;  // row k: of the k-th reflection
-  Vector<kUnknowns> weight_;
-};
-
-HWY_ATTR HWY_INLINE Real awayFromZero(Real pivot)
-{
-  constexpr double kTiny = 1e-150;
-  return choose(magnitude(pivot) < Real(kTiny), Real(kTiny), pivot);
-}
-
-/// Number of eigenvalues below `shift`: negative pivots (Sylvester's law of inertia).
-HWY_ATTR HWY_INLINE Real eigenvaluesBelow(const Tridiagonal& T, Real shift)
-{
-  Real count(0.0), pivot(1.0);
-  UNROLLED
-  for (int i = 0; i < kUnknowns; ++i) {
-    const Real coupling = i > 0 ? T.below[i - 1] * T.below[i - 1] / pivot : Real();
-    pivot = awayFromZero(T.diagonal[i] - shift - coupling);
-    count += choose(pivot < Real(0.0), Real(1.0), Real(0.0));
-  }
-  return count;
-}
-
-/// Laguerre's iteration for the smallest eigenvalue, from below: it never passes that, and triples the number of digits
-/// with each step (J. H. Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 7). Left of all eigenvalues all
-/// pivots are positive.
-struct SmallestEigenvalue
-{
-  Real value;
-  Condition converged;
-
-  HWY_ATTR HWY_INLINE SmallestEigenvalue(const Tridiagonal& T, Real rounding) : converged(rounding < rounding)
-  {
-    constexpr int kMostSteps = 24;
-    const Real degree = static_cast<double>(kUnknowns);
-    value = Real(0.0) - Real(8.0) * rounding;
-    for (int step = 0; step < kMostSteps && !hn::AllTrue(D(), converged); ++step) {
-      // Sums over the eigenvalues of 1 / (value - eigenvalue) and of its square: first and second derivative of the
-      // logarithm of the characteristic polynomial, which is the product of the pivots.
-      Real first(0.0), second(0.0), smallest_pivot = std::numeric_limits<double>::infinity();
-      Real inverse(0.0), slope(0.0), bend(0.0);  // of the last pivot: 1 / pivot, pivot' / pivot, pivot'' / pivot
-      UNROLLED
-      for (int i = 0; i < kUnknowns; ++i) {
-        Real pivot = T.diagonal[i] - value;
-        Real new_slope(-1.0), new_bend(0.0);
-        if (i > 0) {
-          const Real coupling = T.below[i - 1] * T.below[i - 1] * inverse;
-          pivot -= coupling;
-          new_slope += coupling * slope;
-          new_bend = coupling * (bend - Real(2.0) * slope * slope);
-        }
-        smallest_pivot = smaller(pivot, smallest_pivot);
-        inverse = Real(1.0) / pivot;
-        slope = new_slope * inverse;
-        bend = new_bend * inverse;
-        first += slope;
-        second += slope * slope - bend;
-      }
-      const Real root = squareRoot(larger(Real(0.0), (degree - Real(1.0)) * (degree * second - first * first)));
-      const Real advance = degree / (root - first);
-      // Where a pivot is not positive the last step has reached the eigenvalue to rounding.
-      const Condition open = hn::And(hn::Not(converged), Real(0.0) < smallest_pivot);
-      value = choose(open, value + advance, value);
-      converged = hn::Or(hn::Not(open), advance < rounding);
-    }
-  }
-};
-
-/// The unit eigenvector of an eigenvalue, from the twisted factorization whose pivot is smallest (K. V. Fernando, "On
-/// computing an eigenvector of a tridiagonal matrix", SIAM J. Matrix Anal. Appl. 18, 1997).
-HWY_ATTR HWY_INLINE Vector<kUnknowns> eigenvector(const Tridiagonal& T, Real eigenvalue)
-{
-  Vector<kUnknowns> forward, backward;  // pivots
-  UNROLLED
-  for (int i = 0; i < kUnknowns; ++i) {
-    const Real coupling = i > 0 ? T.below[i - 1] * T.below[i - 1] / forward[i - 1] : Real();
-    forward[i] = awayFromZero(T.diagonal[i] - eigenvalue - coupling);
-  }
-  UNROLLED
-  for (int i = kUnknowns - 1; i >= 0; --i) {
-    const Real coupling = i + 1 < kUnknowns ? T.below[i] * T.below[i] / backward[i + 1] : Real();
-    backward[i] = awayFromZero(T.diagonal[i] - eigenvalue - coupling);
-  }
-  Real smallest = std::numeric_limits<double>::infinity(), twist(0.0);
-  UNROLLED
-  for (int i = 0; i < kUnknowns; ++i) {
-    const Real pivot = magnitude(forward[i] + backward[i] - (T.diagonal[i] - eigenvalue));
-    const Condition better = pivot < smallest;
-    smallest = choose(better, pivot, smallest);
-    twist = choose(better, Real(static_cast<double>(i)), twist);
-  }
-  Vector<kUnknowns> x;
-  Real squared_norm(0.0);
-  UNROLLED
-  for (int i = 0; i < kUnknowns; ++i) {
-    const Real place = static_cast<double>(i);
-    x[i] = choose(magnitude(twist - place) < Real(0.5), Real(1.0), Real());
-    if (i > 0) {
-      x[i] = choose(twist < place, Real(0.0) - T.below[i - 1] / backward[i] * x[i - 1], x[i]);
-    }
-  }
-  UNROLLED
-  for (int i = kUnknowns - 2; i >= 0; --i) {
-    const Real place = static_cast<double>(i);
-    x[i] = choose(place < twist, Real(0.0) - T.below[i] / forward[i] * x[i + 1], x[i]);
-  }
-  for (const Real& entry : x) {
-    squared_norm += entry * entry;
-  }
-  const Real scale = Real(1.0) / squareRoot(squared_norm);
-  for (Real& entry : x) {
-    entry = entry * scale;
-  }
-  return x;
 }
 
 HWY_ATTR void fitLanes(QuadricFits& fits, std::size_t begin)

@@ -343,22 +343,5 @@ TEST(HiddenSurfaces, KeepNothingOfTheImageBefore)
   }
 }
 
-TEST(HiddenSurfaces, KnowWhereThereAreNone)
-{
-  const Image image([](std::uint32_t u, std::uint32_t v) {
-    const double table = planeDepth(kSlantedTable, u, v);
-    return inRectangle(u, v) ? 0.7 * table : table;
-  });
-  std::string warning;
-  ThreadTeam team(1);
-  HiddenSurfaces surfaces;
-  EXPECT_TRUE(surfaces.empty({0, kWidth, 0, kHeight}));
-  surfaces.update(*RangeImage::create(image.cloud, warning), kWidest, team);
-  EXPECT_FALSE(surfaces.empty({0, kWidth, 0, kHeight}));
-  EXPECT_FALSE(surfaces.empty({-5, 62, 30, 500})) << "reaches into the rectangle, and beyond the image";
-  EXPECT_TRUE(surfaces.empty({0, 32, 0, kHeight}));
-  EXPECT_TRUE(surfaces.empty({0, kWidth, 100, kHeight}));
-}
-
 }  // namespace
 }  // namespace grasp_affordances::test
