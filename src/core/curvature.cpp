@@ -33,12 +33,15 @@ void drawPoints(const Quadric& quadric, const Neighborhood& neighborhood, std::s
   // The j-th point is (j n + phase) / count, without a division.
   std::size_t i = phase / count, rest = phase % count;
   const std::size_t stride = n / count, remainder = n % count;
+  // Local copies: the compiler cannot know that the stores below leave the originals alone.
   const double scale = 1.0 / quadric.scale;
+  const Eigen::Vector3d origin = quadric.origin;
+  const float *from_x = neighborhood.x(), *from_y = neighborhood.y(), *from_z = neighborhood.z();
+  double *x = scratch.points.col(0).data(), *y = scratch.points.col(1).data(), *z = scratch.points.col(2).data();
   for (std::size_t j = 0; j < room; ++j) {
-    const auto row = static_cast<Eigen::Index>(j);
-    scratch.points(row, 0) = (neighborhood.x()[i] - quadric.origin.x()) * scale;
-    scratch.points(row, 1) = (neighborhood.y()[i] - quadric.origin.y()) * scale;
-    scratch.points(row, 2) = (neighborhood.z()[i] - quadric.origin.z()) * scale;
+    x[j] = (from_x[i] - origin.x()) * scale;
+    y[j] = (from_y[i] - origin.y()) * scale;
+    z[j] = (from_z[i] - origin.z()) * scale;
     if (j + 1 < count) {
       rest += remainder;
       i += stride + (rest >= count ? 1 : 0);
