@@ -92,7 +92,7 @@ public:
   /// Starts over with no neighborhoods.
   void clear();
 
-  /// Adds the moments of a neighborhood with the given centre and radius (m). At most kCapacity.
+  /// Adds the moments, of degree 4, of a neighborhood with the given centre and radius (m). At most kCapacity.
   void add(const Moments& moments, const Eigen::Vector3d& origin, double scale);
 
   /// Fits all that were added.

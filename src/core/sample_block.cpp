@@ -128,7 +128,7 @@ void SampleBlock::findNeighborhoods(Remaining& samples, bool in_window, const Pr
       sample.sphere = prepared.windowSearch()->gather(center, radius, with_index, *sample.neighborhood);
     } else {
       prepared.findNeighborhood(sample.point, config, *sample.neighborhood);
-      if (prepared.image) {
+      if (prepared.image && config.occlusion.filter) {
         sample.sphere = viewOf(*sample.neighborhood, *prepared.image);
       }
     }

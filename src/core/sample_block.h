@@ -44,7 +44,7 @@ private:
   {
     std::uint64_t number;
     std::uint32_t point;
-    SphereView sphere;           // with a range image only
+    SphereView sphere;           // with a range image and the occlusion filter only
     Neighborhood* neighborhood;  // of those that are fitted at once
     Moments moments;
     std::optional<TaubinFit> fit;

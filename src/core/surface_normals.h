@@ -19,8 +19,7 @@ namespace grasp_affordances
 class SurfaceNormals
 {
 public:
-  /// Of the points that are asked for only those of every so manieth row and column get a normal, where a sixteenth of
-  /// the normals is enough.
+  /// For compute(), where a sixteenth of the normals is enough.
   static constexpr std::size_t kSparseStride = 4;
 
   /// Starts over, with no normals, for a cloud of so many points.

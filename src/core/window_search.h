@@ -27,6 +27,7 @@ public:
 
   /// The latter alone, in less time.
   SphereView look(const Eigen::Vector3f& center, float radius) const;
+
   const RangeImage* image() const override { return &image_; }
 
 private:

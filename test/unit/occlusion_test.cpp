@@ -1,5 +1,6 @@
 #include "grasp_affordances/occlusion.h"
 
+#include "core/window_search.h"
 #include "grasp_affordances/free_space.h"
 #include "support/points.h"
 #include "support/scenes.h"
@@ -120,6 +121,32 @@ double freeShareAt(const Cloud& cloud, const Eigen::Vector3d& centroid)
   std::string warning;
   const auto image = RangeImage::create(cloud, warning);
   return observedFreeShare(*image, shellAt(centroid), Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitZ(), 0.008);
+}
+
+TEST(OcclusionFilter, SaysTheSameBeforeTheNeighborhoodIsGathered)
+{
+  const Cloud cloud = captureScene("cleaning2", 1).cloud;
+  std::string warning;
+  const auto image = RangeImage::create(cloud, warning);
+  const WindowSearch search(*image, cloud.size());
+  int hidden = 0, visible = 0;
+  for (std::uint64_t draw = 0; draw < 600; ++draw) {
+    const std::uint32_t point = randomIndex(randomBits(1, draw), static_cast<std::uint32_t>(cloud.size()));
+    if (!cloud.measured(point)) {
+      continue;
+    }
+    for (const double min_distance : {0.0, 0.01, 0.05}) {
+      Neighborhood neighborhood;
+      const SphereView gathered = search.gather(cloud.point(point), 0.026F, false, neighborhood);
+      const bool expected = occluded(*image, neighborhood, 20, min_distance);
+      (expected ? hidden : visible) += 1;
+      EXPECT_EQ(occluded(*image, gathered, 20, min_distance), expected) << point << ", " << min_distance;
+      EXPECT_EQ(occluded(*image, search.look(cloud.point(point), 0.026F), 20, min_distance), expected)
+          << point << ", " << min_distance;
+    }
+  }
+  EXPECT_GT(hidden, 100);
+  EXPECT_GT(visible, 100);
 }
 
 TEST(ObservedFreeSpace, IsWhatTheSensorSawThrough)
