@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <cstddef>
@@ -72,6 +72,13 @@ struct Cloud
 
   bool measured(std::size_t index) const { return !std::isnan(x[index]); }
   Eigen::Vector3f point(std::size_t index) const { return {x[index], y[index], z[index]}; }
+};
+
+/// One of several clouds of the same moment, and its place among them.
+struct PosedCloud
+{
+  const Cloud* cloud = nullptr;  ///< in a frame of its own: an organized one in its optical frame
+  Eigen::Isometry3d T_common_cloud = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace grasp_affordances

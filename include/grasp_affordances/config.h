@@ -90,6 +90,17 @@ struct ShellConfig
       0.0015;  ///< m between neighboring pixels at the range where those thresholds hold as given
 };
 
+/// An axis-aligned box that samples are drawn in; what lies outside still counts for clearance and occlusion. Its
+/// frame is that of the cloud, or another that the caller relates to it (see Localizer). As it stands it is no limit.
+struct WorkspaceConfig
+{
+  static constexpr double kNoLimit = 100.0;  // m
+
+  double min_x = -kNoLimit, max_x = kNoLimit;  ///< m
+  double min_y = -kNoLimit, max_y = kNoLimit;  ///< m
+  double min_z = -kNoLimit, max_z = kNoLimit;  ///< m
+};
+
 /// Everything that determines a result. The initialisers above are the `localizer` preset and the only place where its
 /// defaults stand; `config/localizer.yaml` is checked against them by a test.
 struct Config
@@ -97,6 +108,7 @@ struct Config
   std::string preset = "localizer";  ///< name of the preset that the values started from
   HandGeometry hand;
   SamplingConfig sampling;
+  WorkspaceConfig workspace;
   NeighborhoodConfig neighborhood;
   OcclusionConfig occlusion;
   EstimationConfig estimation;

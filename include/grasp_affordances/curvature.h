@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace grasp_affordances
@@ -43,8 +45,10 @@ struct CurvatureScratch
 /// `random_bits`) onto the quadric by one Newton step along the gradient, discards those that leave the neighborhood,
 /// and takes the median of the larger principal curvature's magnitude. Normals are turned towards `sensor` (m, cloud's
 /// frame) before signs are judged. Empty where no point is left.
+/// @param seen  how many of the points, the first ones, that sensor saw, if not all: only these are drawn from
 std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, const Neighborhood& neighborhood,
                                                      const Eigen::Vector3d& sensor, std::size_t count,
-                                                     std::uint64_t random_bits, CurvatureScratch& scratch);
+                                                     std::uint64_t random_bits, CurvatureScratch& scratch,
+                                                     std::size_t seen = std::numeric_limits<std::size_t>::max());
 
 }  // namespace grasp_affordances

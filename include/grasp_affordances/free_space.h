@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace grasp_affordances
 {
 
@@ -12,8 +14,10 @@ namespace grasp_affordances
 /// to the shell (`axis` and `normal` orthonormal), those whose pixel measured a range beyond them. Points outside
 /// the image or on a pixel without a measurement are not seen as free. An object shadows the gap behind itself, so that
 /// also a free-standing one reaches little more than one half.
+/// @param others  further views, in each of which a point may be seen as free; null for none
 double observedFreeShare(const RangeImage& image, const ShellSearchResult& shell, const Eigen::Vector3d& axis,
-                         const Eigen::Vector3d& normal, double thickness);
+                         const Eigen::Vector3d& normal, double thickness,
+                         const std::vector<OtherView>* others = nullptr);
 
 /// Share of a shell's silhouette, as the sensor sees it, that shows surface inside the shell: of a lattice of points
 /// across the inner radius and along the length, those whose pixel measured a point inside, among those whose pixel

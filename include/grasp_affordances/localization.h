@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct Shell
   double observed_free = 0.0;  ///< share of the gap that the sensor saw through, in [0, 1]; NaN without a range image
   std::uint32_t points_inside = 0;  ///< cloud points over the length, at most inner_radius from the axis
   std::uint32_t points_in_gap = 0;  ///< cloud points over the length, beyond inner_radius by at most the thickness
-  std::uint32_t point_index = 0;    ///< row-major index of the sampled point in the cloud
+  std::uint32_t point_index = 0;    ///< row-major index of the sampled point in the cloud; of several clouds, one
+                                    ///< after the other
 };
 
 /// Where a sample ended. Every sample ends in exactly one of these.
@@ -67,6 +69,9 @@ struct Localization
   std::uint32_t threads = 0;                      ///< that worked on it
   std::array<std::uint32_t, kOutcomes> counts{};  ///< indexed by Outcome
   StageTimes milliseconds;
+  /// m, by which two views place the same surfaces differently, the largest over all pairs of views: a measure of how
+  /// wrong their relative poses are. NaN with fewer than two views, and where they see nothing in common.
+  double view_disagreement = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::string> warnings;  ///< one line each, about the cloud: what could not be used and why
 };
 

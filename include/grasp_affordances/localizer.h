@@ -5,6 +5,7 @@
 #include "grasp_affordances/localization.h"
 
 #include <memory>
+#include <vector>
 
 namespace grasp_affordances
 {
@@ -27,7 +28,19 @@ public:
 
   /// The same into a result whose memory is used again. For organized clouds with intrinsics, of a size seen before,
   /// nothing is allocated but by what has to grow.
-  void localize(const Cloud& cloud, Localization& result);
+  /// @param T_workspace_cloud  where the box of WorkspaceConfig is
+  void localize(const Cloud& cloud, Localization& result,
+                const Eigen::Isometry3d& T_workspace_cloud = Eigen::Isometry3d::Identity());
+
+  /// Localizes in several clouds of the same moment, as seen by several sensors (paper, section III-A). Samples are
+  /// drawn from all of them; neighborhoods and clearance are searched in all of them. A neighborhood is kept when at
+  /// least one view with points in it sees it unoccluded; free space that one view observed is free, and blocks what
+  /// another took to be hidden there.
+  ///
+  /// Shells are in the common frame, their normals towards the sensor that saw the sample, and `point_index` counts the
+  /// points of all clouds, one cloud after the other. One cloud at the origin gives what it gives alone.
+  void localize(const std::vector<PosedCloud>& views, Localization& result,
+                const Eigen::Isometry3d& T_workspace_common = Eigen::Isometry3d::Identity());
 
   const Config& config() const;
 

@@ -2,7 +2,7 @@
 
 #include "grasp_affordances/range_image.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstddef>
 #include <cstdint>
@@ -43,12 +43,17 @@ public:
   /// whether index() is asked for, too: if not, it is unspecified.
   SphereSurvey appendWindow(const Cloud& cloud, const PixelWindow& window, bool with_index = true);
 
+  /// Appends the points of a neighborhood in another cloud, brought from its frame to this one's. Their indices stay
+  /// those in their own cloud.
+  void append(const Neighborhood& other, const Eigen::Isometry3d& T_this_other);
+
   /// Keeps the k points nearest to the centre, of equally distant ones those with the smaller index, and shrinks the
   /// radius to the k-th distance. Needs at least k points.
   void keepNearest(std::size_t k);
 
 private:
   SphereSurvey append(const PixelRows& rows, bool with_index);
+  void makeRoom(std::size_t points);
 
   std::size_t size_ = 0;
   std::vector<float> x_, y_, z_;

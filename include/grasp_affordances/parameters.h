@@ -41,6 +41,14 @@ void visitParameters(ConfigT& c, Visitor&& visit)
   visit("sampling/screen", c.sampling.screen,
         "sample first where the cloud falls away on both sides, evenly over the image");
 
+  const Real limit{-WorkspaceConfig::kNoLimit, WorkspaceConfig::kNoLimit};
+  visit("workspace/min_x", c.workspace.min_x, limit, "m", "least x of the box that samples are drawn in");
+  visit("workspace/max_x", c.workspace.max_x, limit, "m", "largest x of the box that samples are drawn in");
+  visit("workspace/min_y", c.workspace.min_y, limit, "m", "least y of the box that samples are drawn in");
+  visit("workspace/max_y", c.workspace.max_y, limit, "m", "largest y of the box that samples are drawn in");
+  visit("workspace/min_z", c.workspace.min_z, limit, "m", "least z of the box that samples are drawn in");
+  visit("workspace/max_z", c.workspace.max_z, limit, "m", "largest z of the box that samples are drawn in");
+
   visit("neighborhood/kind", c.neighborhood.kind, "all points within a sphere, or the k nearest");
   visit("neighborhood/radius", c.neighborhood.radius, Real{0.0, 0.5}, "m", "of the sphere; 0: the capture radius");
   visit("neighborhood/k", c.neighborhood.k, Count{10, 100000}, "", "size of a k nearest neighborhood");

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace grasp_affordances
@@ -22,5 +24,11 @@ std::optional<Eigen::Vector3d> pointsAxis(const Moments& moments);
 /// surface normals (paper, section V-A). Empty where the two smallest eigenvalues coincide to rounding: on a plane the
 /// normals single out no axis.
 std::optional<Eigen::Vector3d> normalsAxis(const Neighborhood& neighborhood, const Normals& normals);
+
+/// The sum of n n' over the normals of `count` points, given by their indices; those that have none add nothing.
+Eigen::Matrix3d normalsScatter(const Normals& normals, const std::uint32_t* points, std::size_t count);
+
+/// The same axis from that sum.
+std::optional<Eigen::Vector3d> normalsAxis(const Eigen::Matrix3d& scatter);
 
 }  // namespace grasp_affordances

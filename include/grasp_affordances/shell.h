@@ -4,10 +4,11 @@
 #include "grasp_affordances/neighborhoods.h"
 #include "grasp_affordances/range_image.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace grasp_affordances
 {
@@ -47,6 +48,15 @@ struct ShellSearchResult
   std::uint32_t points_in_gap = 0;
 };
 
+/// The same scene at the same moment, as another sensor saw it.
+struct OtherView
+{
+  const NeighborhoodSearch* cloud = nullptr;
+  const NeighborhoodSearch* hidden = nullptr;                      ///< may be null, as in ShellSurroundings
+  const RangeImage* image = nullptr;                               ///< may be null
+  Eigen::Isometry3d T_other_this = Eigen::Isometry3d::Identity();  ///< to its frame, from that of the shell
+};
+
 /// What a shell is searched in.
 struct ShellSurroundings
 {
@@ -55,6 +65,7 @@ struct ShellSurroundings
       nullptr;                        ///< what is taken to be where the sensor did not see: blocks gaps as well
   const RangeImage* image = nullptr;  ///< tells what was not seen, and how exactly depth was measured
   double spacing = 0.0;               ///< m, between neighboring points; 0: unknown
+  const std::vector<OtherView>* others = nullptr;  ///< whose points count as well; null for none
 };
 
 /// FitShell (paper, section IV): the smallest radius, from the fitted one in steps up to the capture radius, with a gap

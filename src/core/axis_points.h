@@ -91,6 +91,13 @@ struct ShellBounds
 struct ShellCounts
 {
   std::uint32_t short_of_filled = 0, inside = 0, up_to_outer = 0;
+
+  void operator+=(const ShellCounts& other)
+  {
+    short_of_filled += other.short_of_filled;
+    inside += other.inside;
+    up_to_outer += other.up_to_outer;
+  }
 };
 ShellCounts countPoints(const AxisPoints& points, const ShellBounds& shell);
 

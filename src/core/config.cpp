@@ -87,9 +87,26 @@ Config presetConfig(const std::string& name)
   throw ParameterError("preset: '" + name + "' is none of: " + listed(presetNames()));
 }
 
+namespace
+{
+
+void checkInterval(const std::string& axis, double min, double max)
+{
+  if (!(min < max)) {
+    std::ostringstream message;
+    message << "workspace/max_" << axis << ": " << max << " is not above workspace/min_" << axis << ", " << min << " m";
+    throw ParameterError(message.str());
+  }
+}
+
+}  // namespace
+
 void validate(const Config& config)
 {
   visitParameters(config, RangeCheck());
+  checkInterval("x", config.workspace.min_x, config.workspace.max_x);
+  checkInterval("y", config.workspace.min_y, config.workspace.max_y);
+  checkInterval("z", config.workspace.min_z, config.workspace.max_z);
   const double steps = config.hand.capture_radius / config.shell.radius_step;
   const double slices = config.shell.measure_length ? config.shell.max_length / config.shell.length_resolution : 1.0;
   constexpr double kMostCells = 1e6;  // of the table in which the shell search counts points

@@ -21,12 +21,12 @@ QuadricCoefficients coefficients(const Quadric& quadric)
   return {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(0, 2), b.x(), b.y(), b.z(), quadric.c};
 }
 
-/// Local coordinates of `count` evenly spaced points of the neighborhood; `phase`, less than their number, says where
-/// they begin.
-void drawPoints(const Quadric& quadric, const Neighborhood& neighborhood, std::size_t count, std::size_t phase,
-                CurvatureScratch& scratch)
+/// Local coordinates of `count` evenly spaced ones of the first n points of the neighborhood; `phase`, less than n,
+/// says where they begin.
+void drawPoints(const Quadric& quadric, const Neighborhood& neighborhood, std::size_t n, std::size_t count,
+                std::size_t phase, CurvatureScratch& scratch)
 {
-  const std::size_t n = neighborhood.size(), room = (count + kCurvatureBatch - 1) / kCurvatureBatch * kCurvatureBatch;
+  const std::size_t room = (count + kCurvatureBatch - 1) / kCurvatureBatch * kCurvatureBatch;
   if (static_cast<std::size_t>(scratch.points.rows()) < room) {
     scratch.points.resize(static_cast<Eigen::Index>(room), Eigen::NoChange);
   }
@@ -80,13 +80,14 @@ PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vecto
 
 std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, const Neighborhood& neighborhood,
                                                      const Eigen::Vector3d& sensor, std::size_t count,
-                                                     std::uint64_t random_bits, CurvatureScratch& scratch)
+                                                     std::uint64_t random_bits, CurvatureScratch& scratch,
+                                                     std::size_t seen)
 {
-  const std::size_t n = neighborhood.size(), drawn = std::min(count, n);
+  const std::size_t n = std::min(seen, neighborhood.size()), drawn = std::min(count, n);
   if (drawn == 0) {
     return std::nullopt;
   }
-  drawPoints(quadric, neighborhood, drawn, randomIndex(random_bits, static_cast<std::uint32_t>(n)), scratch);
+  drawPoints(quadric, neighborhood, n, drawn, randomIndex(random_bits, static_cast<std::uint32_t>(n)), scratch);
   const auto column = [&](Eigen::Index k) { return scratch.points.col(k).data(); };
   const Eigen::Vector3d local_sensor = quadric.toLocal(sensor);
   const CurvatureCounts counts = quadricCurvatures(coefficients(quadric), local_sensor.data(), drawn,

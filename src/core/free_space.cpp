@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
 
@@ -26,7 +27,18 @@ public:
     ++size_;
   }
 
-  /// Calls visit(point, measured) for the points whose pixel measured something.
+  /// Brings the points from one frame to another.
+  void transform(const Eigen::Isometry3d& T_to_from)
+  {
+    for (std::size_t i = 0; i < Points; ++i) {
+      const Eigen::Vector3d point = T_to_from * Eigen::Vector3d(x_[i], y_[i], z_[i]);
+      x_[i] = point.x();
+      y_[i] = point.y();
+      z_[i] = point.z();
+    }
+  }
+
+  /// Calls visit(i, point, measured) for the points whose pixel measured something; i is the point's number.
   template <typename Visitor>
   void visitMeasured(const RangeImage& image, Visitor&& visit)
   {
@@ -42,7 +54,7 @@ public:
       }
       const auto pixel = static_cast<std::size_t>(pixels_[i]);
       if (cloud.measured(pixel)) {
-        visit(Eigen::Vector3d(x_[i], y_[i], z_[i]), Eigen::Vector3d(cloud.point(pixel).cast<double>()));
+        visit(i, Eigen::Vector3d(x_[i], y_[i], z_[i]), Eigen::Vector3d(cloud.point(pixel).cast<double>()));
       }
     }
   }
@@ -69,7 +81,7 @@ std::array<Eigen::Vector2d, Parts> directionsAround()
 }  // namespace
 
 double observedFreeShare(const RangeImage& image, const ShellSearchResult& shell, const Eigen::Vector3d& axis,
-                         const Eigen::Vector3d& normal, double thickness)
+                         const Eigen::Vector3d& normal, double thickness, const std::vector<OtherView>* others)
 {
   constexpr int kAlong = 6, kAround = 24, kRadial = 2;
   static const auto kDirections = directionsAround<kAround>();
@@ -81,18 +93,32 @@ double observedFreeShare(const RangeImage& image, const ShellSearchResult& shell
       ring[b * kRadial + c] = (shell.inner_radius + thickness * (c + 0.5) / kRadial) * radial;
     }
   }
-  Lattice<kAlong * kAround * kRadial> lattice;
+  constexpr std::size_t kPoints = kAlong * kAround * kRadial;
+  Lattice<kPoints> lattice;
   for (int a = 0; a < kAlong; ++a) {
     const Eigen::Vector3d center = shell.centroid + shell.length * ((a + 0.5) / kAlong - 0.5) * axis;
     for (const Eigen::Vector3d& offset : ring) {
       lattice.add(center + offset);
     }
   }
-  int free = 0;
-  lattice.visitMeasured(image, [&](const Eigen::Vector3d& point, const Eigen::Vector3d& measured) {
-    free += measured.squaredNorm() > point.squaredNorm() ? 1 : 0;
-  });
-  return static_cast<double>(free) / (kAlong * kAround * kRadial);
+  std::bitset<kPoints> free;
+  const auto look = [&](const RangeImage& view) {
+    lattice.visitMeasured(view, [&](std::size_t i, const Eigen::Vector3d& point, const Eigen::Vector3d& measured) {
+      free[i] = free[i] || measured.squaredNorm() > point.squaredNorm();
+    });
+  };
+  look(image);
+  if (others != nullptr) {
+    const Lattice<kPoints> own = lattice;
+    for (const OtherView& other : *others) {
+      if (other.image != nullptr) {
+        lattice = own;
+        lattice.transform(other.T_other_this);
+        look(*other.image);
+      }
+    }
+  }
+  return static_cast<double>(free.count()) / kPoints;
 }
 
 double silhouetteCoverage(const RangeImage& image, const ShellSearchResult& shell, const Eigen::Vector3d& axis,
@@ -108,7 +134,7 @@ double silhouetteCoverage(const RangeImage& image, const ShellSearchResult& shel
     }
   }
   int inside = 0, behind = 0;
-  lattice.visitMeasured(image, [&](const Eigen::Vector3d& point, const Eigen::Vector3d& measured) {
+  lattice.visitMeasured(image, [&](std::size_t, const Eigen::Vector3d& point, const Eigen::Vector3d& measured) {
     const Eigen::Vector3d offset = measured - shell.centroid;
     if ((offset - offset.dot(axis) * axis).norm() <= shell.inner_radius) {
       ++inside;

@@ -6,7 +6,9 @@
 #include "core/surface_ends.h"
 #include "core/thread_team.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,6 +22,10 @@ class HiddenSurfaces
 public:
   /// Replaces the cloud by the surfaces of an image that go on for at most `max_width` (m).
   void update(const RangeImage& image, double max_width, ThreadTeam& team);
+
+  /// Takes out the points for which `seen_through(point)` holds, a function that is safe to call from many threads.
+  template <typename Predicate>
+  void remove(Predicate&& seen_through, ThreadTeam& team);
 
   const Cloud& cloud() const { return cloud_; }
 
@@ -47,5 +53,24 @@ private:
   std::vector<std::uint8_t> tiles_;  // row-major: whether a square of pixels has points
   std::vector<Block> blocks_;        // by member of the team
 };
+
+template <typename Predicate>
+void HiddenSurfaces::remove(Predicate&& seen_through, ThreadTeam& team)
+{
+  team.forEach(tiles_.size(), [&](std::size_t tile, std::size_t) {
+    if (tiles_[tile] == 0) {
+      return;
+    }
+    const std::size_t u_begin = tile % tile_columns_ * kTile, v_begin = tile / tile_columns_ * kTile;
+    for (std::size_t v = v_begin; v < std::min<std::size_t>(v_begin + kTile, cloud_.height); ++v) {
+      for (std::size_t u = u_begin; u < std::min<std::size_t>(u_begin + kTile, cloud_.width); ++u) {
+        const std::size_t pixel = v * cloud_.width + u;
+        if (cloud_.measured(pixel) && seen_through(cloud_.point(pixel))) {
+          cloud_.x[pixel] = cloud_.y[pixel] = cloud_.z[pixel] = std::nanf("");
+        }
+      }
+    }
+  });
+}
 
 }  // namespace grasp_affordances

@@ -1,6 +1,6 @@
 #include "grasp_affordances/localizer.h"
 
-#include "core/prepared_cloud.h"
+#include "core/prepared_views.h"
 #include "core/sample_block.h"
 #include "core/stopwatch.h"
 #include "core/thread_team.h"
@@ -21,7 +21,8 @@ public:
 
   Config config;
   ThreadTeam team;
-  PreparedCloud prepared;
+  std::vector<PosedCloud> single;  // a cloud without others
+  PreparedViews views;
   std::vector<SampleBlock> blocks;    // one per thread
   std::vector<SampleResult> samples;  // one slot per sample
 };
@@ -48,29 +49,37 @@ Localization Localizer::localize(const Cloud& cloud)
   return result;
 }
 
-/// AffordanceFind (Algorithm 1). The samples know nothing of one another: each writes its own slot.
-void Localizer::localize(const Cloud& cloud, Localization& result)
+void Localizer::localize(const Cloud& cloud, Localization& result, const Eigen::Isometry3d& T_workspace_cloud)
 {
-  auto& [config, team, prepared, blocks, samples] = *implementation_;
+  std::vector<PosedCloud>& single = implementation_->single;
+  single.assign(1, {&cloud, Eigen::Isometry3d::Identity()});
+  localize(single, result, T_workspace_cloud);
+}
+
+/// AffordanceFind (Algorithm 1). The samples know nothing of one another: each writes its own slot.
+void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localization& result,
+                         const Eigen::Isometry3d& T_workspace_common)
+{
+  auto& [config, team, single, views, blocks, samples] = *implementation_;
   Stopwatch stopwatch, total;
-  prepared.update(cloud, config, team);
+  views.update(posed_clouds, config, T_workspace_common, team);
   result.milliseconds = StageTimes();
   result.milliseconds.preparation = stopwatch.lap();
 
-  const std::size_t count = prepared.search != nullptr ? samples.size() : 0;
+  const std::size_t count = views.hasSamples() ? samples.size() : 0;
   for (SampleBlock& block : blocks) {
     block.times = StageTimes();
   }
   constexpr std::size_t kSize = SampleBlock::kSamples;
   team.forEach((count + kSize - 1) / kSize, [&](std::size_t i, std::size_t member) {
     const std::size_t begin = i * kSize, end = std::min(begin + kSize, count);
-    blocks[member].examine(prepared, config, begin, end, &samples[begin]);
+    blocks[member].examine(views, config, begin, end, &samples[begin]);
   });
 
-  result.points = static_cast<std::uint32_t>(prepared.measured.size());
+  result.points = views.measured;
   result.sampled = static_cast<std::uint32_t>(count);
   result.threads = static_cast<std::uint32_t>(team.size());
-  result.warnings = prepared.warnings;
+  result.warnings = views.warnings;
   result.counts.fill(0);
   result.shells.clear();
   for (std::size_t i = 0; i < count; ++i) {

@@ -106,9 +106,21 @@ SphereSurvey Neighborhood::appendWindow(const Cloud& cloud, const PixelWindow& w
   return append(pixelRows(cloud, window), with_index);
 }
 
-SphereSurvey Neighborhood::append(const PixelRows& rows, bool with_index)
+void Neighborhood::append(const Neighborhood& other, const Eigen::Isometry3d& T_this_other)
 {
-  const std::size_t needed = size_ + rows.rows * rows.columns + kGatherSlack;
+  makeRoom(other.size_);
+  for (std::size_t i = 0; i < other.size_; ++i, ++size_) {
+    const Eigen::Vector3d point = T_this_other * other.point(i).cast<double>();
+    x_[size_] = static_cast<float>(point.x());
+    y_[size_] = static_cast<float>(point.y());
+    z_[size_] = static_cast<float>(point.z());
+    index_[size_] = other.index_[i];
+  }
+}
+
+void Neighborhood::makeRoom(std::size_t points)
+{
+  const std::size_t needed = size_ + points + kGatherSlack;
   if (needed > x_.size()) {
     const std::size_t room = std::max(needed, 2 * x_.size());
     x_.resize(room);
@@ -116,6 +128,11 @@ SphereSurvey Neighborhood::append(const PixelRows& rows, bool with_index)
     z_.resize(room);
     index_.resize(room);
   }
+}
+
+SphereSurvey Neighborhood::append(const PixelRows& rows, bool with_index)
+{
+  makeRoom(rows.rows * rows.columns);
   const SphereSurvey survey = gatherSphere(rows, center.data(), radius * radius,
                                            {&x_[size_], &y_[size_], &z_[size_], with_index ? &index_[size_] : nullptr});
   size_ += survey.points;

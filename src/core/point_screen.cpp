@@ -108,7 +108,7 @@ std::vector<std::uint32_t> screenPoints(const RangeImage& image, const HandGeome
 }
 
 void PointScreen::update(const RangeImage& image, const HandGeometry& hand, std::size_t enough, std::uint64_t seed,
-                         ThreadTeam& team)
+                         ThreadTeam& team, const std::uint8_t* allowed)
 {
   std::array<std::uint32_t, kLattices> order;
   for (std::uint32_t i = 0; i < kLattices; ++i) {
@@ -125,7 +125,8 @@ void PointScreen::update(const RangeImage& image, const HandGeometry& hand, std:
   std::size_t done = 0;
   for (std::size_t next = team.size(); done < kLattices; next = latticesMissing(done, enough)) {
     next = std::min(next, kLattices - done);
-    team.forEach(next, [&](std::size_t i, std::size_t) { screenLattice(image, hand, order[done + i], lattices_[i]); });
+    team.forEach(
+        next, [&](std::size_t i, std::size_t) { screenLattice(image, hand, allowed, order[done + i], lattices_[i]); });
     for (std::size_t i = 0; i < next; ++i, ++done) {
       points_.insert(points_.end(), lattices_[i].begin(), lattices_[i].end());
       if (points_.size() >= enough) {
@@ -141,15 +142,16 @@ std::size_t PointScreen::latticesMissing(std::size_t done, std::size_t enough) c
   return points_.empty() ? kLattices : ((enough - points_.size()) * done + points_.size() - 1) / points_.size();
 }
 
-void PointScreen::screenLattice(const RangeImage& image, const HandGeometry& hand, std::uint32_t lattice,
-                                std::vector<std::uint32_t>& points)
+void PointScreen::screenLattice(const RangeImage& image, const HandGeometry& hand, const std::uint8_t* allowed,
+                                std::uint32_t lattice, std::vector<std::uint32_t>& points)
 {
   const Cloud& cloud = image.cloud();
   points.clear();
   for (std::uint32_t v = lattice / (kCell / kStride) * kStride; v < cloud.height; v += kCell) {
     for (std::uint32_t u = lattice % (kCell / kStride) * kStride; u < cloud.width; u += kCell) {
       const std::uint32_t pixel = v * cloud.width + u;
-      if (cloud.measured(pixel) && fallsAwayOnBothSides(image, pixel, hand)) {
+      if (cloud.measured(pixel) && (allowed == nullptr || allowed[pixel] != 0) &&
+          fallsAwayOnBothSides(image, pixel, hand)) {
         points.push_back(pixel);
       }
     }

@@ -17,8 +17,9 @@ namespace grasp_affordances
 class PointScreen
 {
 public:
+  /// @param allowed  one number per pixel, zero where no point is to be kept; null: they may be anywhere
   void update(const RangeImage& image, const HandGeometry& hand, std::size_t enough, std::uint64_t seed,
-              ThreadTeam& team);
+              ThreadTeam& team, const std::uint8_t* allowed = nullptr);
 
   /// Keeps no points.
   void clear() { points_.clear(); }
@@ -30,8 +31,8 @@ private:
   static constexpr std::size_t kLattices = kCell / kStride * kCell / kStride;
 
   std::size_t latticesMissing(std::size_t done, std::size_t enough) const;
-  static void screenLattice(const RangeImage& image, const HandGeometry& hand, std::uint32_t lattice,
-                            std::vector<std::uint32_t>& points);
+  static void screenLattice(const RangeImage& image, const HandGeometry& hand, const std::uint8_t* allowed,
+                            std::uint32_t lattice, std::vector<std::uint32_t>& points);
 
   std::array<std::vector<std::uint32_t>, kLattices> lattices_;  // of each the points that are kept
   std::vector<std::uint32_t> points_;

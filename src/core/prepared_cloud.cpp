@@ -1,21 +1,35 @@
 #include "core/prepared_cloud.h"
 
-#include "grasp_affordances/occlusion.h"
-
 #include "core/measured_kernels.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace grasp_affordances
 {
+namespace
+{
 
-void PreparedCloud::update(const Cloud& new_cloud, const Config& config, ThreadTeam& team)
+SphereView unseen(const Neighborhood& neighborhood)
+{
+  SphereSurvey survey{};
+  survey.points = neighborhood.size();
+  return {neighborhood.center, neighborhood.radius, PixelWindow{}, survey};
+}
+
+}  // namespace
+
+void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const Eigen::Isometry3d& T_workspace_cloud,
+                           ThreadTeam& team)
 {
   cloud = &new_cloud;
   image.reset();
   search = nullptr;
   sensor.setZero();
   warnings.clear();
+  screen.clear();
+  hidden_search.reset();
+  limited_ = false;
   listMeasured();
   if (measured.empty()) {
     warnings.emplace_back(cloud->size() == 0 ? "nothing to localize: the cloud is empty"
@@ -27,6 +41,7 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, ThreadT
     return;
   }
 
+  findWorkspace(config.workspace, T_workspace_cloud, team);
   std::string warning;
   image = RangeImage::create(*cloud, warning, &team);
   if (image) {
@@ -46,19 +61,14 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, ThreadT
     warnings.push_back(warning);
   }
   if (image && config.sampling.screen) {
-    screen.update(*image, config.hand, static_cast<std::size_t>(config.sampling.samples), config.sampling.seed, team);
-  } else {
-    screen.clear();
+    screen.update(*image, config.hand, static_cast<std::size_t>(config.sampling.samples), config.sampling.seed, team,
+                  limited_ ? is_within_.data() : nullptr);
   }
-  hidden_search.reset();
   if (image && config.shell.continue_surfaces) {
     constexpr double kWidestBridge = 8.0;  // capture radii: what a hand can grasp, and the shadow beside it
     hidden.update(*image, kWidestBridge * config.hand.capture_radius, team);
     hidden_image = image->withCloud(hidden.cloud());
     hidden_search.emplace(*hidden_image, 0);
-  }
-  if (config.estimation.estimator == Estimator::normals) {
-    estimateNormals(config, team);
   }
 }
 
@@ -74,32 +84,50 @@ bool PreparedCloud::allCoincide() const
   return std::all_of(measured.begin(), measured.end(), [&](std::uint32_t i) { return cloud->point(i) == first; });
 }
 
-void PreparedCloud::findNeighborhood(std::uint32_t point, const Config& config, Neighborhood& neighborhood) const
+void PreparedCloud::findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud,
+                                  ThreadTeam& team)
 {
-  const Eigen::Vector3f center = cloud->point(point);
-  if (config.neighborhood.kind == NeighborhoodKind::knn) {
-    search->nearest(center, static_cast<std::size_t>(config.neighborhood.k), neighborhood);
-  } else {
-    search->withinRadius(center, neighborhoodRadius(config), neighborhood);
+  constexpr double kNoLimit = WorkspaceConfig::kNoLimit;
+  const Eigen::Array3d lower(workspace.min_x, workspace.min_y, workspace.min_z);
+  const Eigen::Array3d upper(workspace.max_x, workspace.max_y, workspace.max_z);
+  limited_ = (lower > -kNoLimit).any() || (upper < kNoLimit).any();
+  if (!limited_) {
+    return;
   }
-}
-
-/// Those of all points in the neighborhoods of the samples that are not occluded.
-void PreparedCloud::estimateNormals(const Config& config, ThreadTeam& team)
-{
-  normals.reset(cloud->size());
-  neighborhoods_.resize(team.size());
-  team.forEach(static_cast<std::size_t>(config.sampling.samples), [&](std::size_t i, std::size_t member) {
-    Neighborhood& neighborhood = neighborhoods_[member];
-    findNeighborhood(samplePoint(config, i), config, neighborhood);
-    const OcclusionConfig& occlusion = config.occlusion;
-    const auto enough = static_cast<std::size_t>(occlusion.max_points_in_front);
-    if (!image || !occlusion.filter || !occluded(*image, neighborhood, enough, occlusion.min_distance_in_front)) {
-      normals.require(neighborhood);
+  is_within_.resize(cloud->size());
+  const auto isWithin = [&](std::size_t i) {
+    const Eigen::Array3d point = T_workspace_cloud * cloud->point(i).cast<double>();
+    return ((point >= lower || lower <= -kNoLimit) && (point <= upper || upper >= kNoLimit)).all();
+  };
+  constexpr std::size_t kBatch = 4096;
+  team.forEach((cloud->size() + kBatch - 1) / kBatch, [&](std::size_t batch, std::size_t) {
+    for (std::size_t i = batch * kBatch; i < std::min(cloud->size(), (batch + 1) * kBatch); ++i) {
+      is_within_[i] = isWithin(i) ? 1 : 0;
     }
   });
-  const bool sparse = config.estimation.normals_mode == NormalsMode::sparse;
-  normals.compute(*cloud, *search, config.estimation.normals_radius, sparse ? SurfaceNormals::kSparseStride : 1, team);
+  within_.clear();
+  std::copy_if(measured.begin(), measured.end(), std::back_inserter(within_),
+               [&](std::uint32_t i) { return is_within_[i] != 0; });
+}
+
+SphereView PreparedCloud::gather(const Eigen::Vector3f& center, float radius, bool with_index,
+                                 Neighborhood& neighborhood) const
+{
+  if (const WindowSearch* window = windowSearch()) {
+    return window->gather(center, radius, with_index, neighborhood);
+  }
+  search->withinRadius(center, radius, neighborhood);
+  return unseen(neighborhood);
+}
+
+SphereView PreparedCloud::gatherNearest(const Eigen::Vector3f& center, std::size_t k, bool with_view,
+                                        Neighborhood& neighborhood) const
+{
+  search->nearest(center, k, neighborhood);
+  if (image && with_view) {
+    return viewOf(neighborhood, *image);
+  }
+  return unseen(neighborhood);
 }
 
 }  // namespace grasp_affordances

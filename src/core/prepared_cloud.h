@@ -4,7 +4,6 @@
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/neighborhoods.h"
 #include "grasp_affordances/range_image.h"
-#include "grasp_affordances/sampling.h"
 
 #include "core/hidden_surfaces.h"
 #include "core/point_screen.h"
@@ -12,7 +11,7 @@
 #include "core/thread_team.h"
 #include "core/window_search.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstdint>
 #include <memory>
@@ -33,29 +32,21 @@ public:
   PreparedCloud& operator=(const PreparedCloud&) = delete;
 
   /// Prepares another cloud, which must outlive its use.
-  void update(const Cloud& cloud, const Config& config, ThreadTeam& team);
+  void update(const Cloud& cloud, const Config& config, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
 
-  /// The neighborhood of a point, given by its index in the cloud. Safe to call from many threads.
-  void findNeighborhood(std::uint32_t point, const Config& config, Neighborhood& neighborhood) const;
+  /// The points within a sphere, with their indices or without, and what the sensor sees of it: of the latter no more
+  /// than their number, where there is no range image. Safe to call from many threads.
+  SphereView gather(const Eigen::Vector3f& center, float radius, bool with_index, Neighborhood& neighborhood) const;
 
-  /// The i-th sample's point, by its index in the cloud.
-  std::uint32_t samplePoint(const Config& config, std::uint64_t i) const
-  {
-    return grasp_affordances::samplePoint(measured, screen.points(), config.sampling, i);
-  }
+  /// The same for the k nearest points, with what the sensor sees of their sphere if asked for.
+  SphereView gatherNearest(const Eigen::Vector3f& center, std::size_t k, bool with_view,
+                           Neighborhood& neighborhood) const;
 
-  /// Where a neighborhood is all points within a sphere: its radius (m).
-  static float neighborhoodRadius(const Config& config)
-  {
-    const double radius = config.neighborhood.radius;
-    return static_cast<float>(radius > 0.0 ? radius : config.hand.capture_radius);
-  }
+  /// The points that samples are drawn from: the measured ones within the workspace.
+  const std::vector<std::uint32_t>& points() const { return limited_ ? within_ : measured; }
 
   /// Searches the range image; null where there is none.
   const WindowSearch* windowSearch() const { return image && window_search_ ? &*window_search_ : nullptr; }
-
-  /// Distance (m) between neighboring points at a point of the cloud; 0 without a range image.
-  double spacing(const Eigen::Vector3d& point) const { return image ? image->spacing(point.z()) : 0.0; }
 
   const Cloud* cloud = nullptr;
   std::vector<std::uint32_t> measured;  // indices of the measured points
@@ -72,11 +63,13 @@ public:
 private:
   void listMeasured();
   bool allCoincide() const;
-  void estimateNormals(const Config& config, ThreadTeam& team);
+  void findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
 
   std::optional<WindowSearch> window_search_;
   std::unique_ptr<NeighborhoodSearch> tree_search_;
-  std::vector<Neighborhood> neighborhoods_;  // one per thread
+  bool limited_ = false;                 // to a workspace
+  std::vector<std::uint32_t> within_;    // where limited, the measured points within the workspace
+  std::vector<std::uint8_t> is_within_;  // where limited, per point
 };
 
 }  // namespace grasp_affordances

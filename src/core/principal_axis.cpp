@@ -24,19 +24,28 @@ std::optional<Eigen::Vector3d> pointsAxis(const Moments& moments)
 
 std::optional<Eigen::Vector3d> normalsAxis(const Neighborhood& neighborhood, const Normals& normals)
 {
+  return normalsAxis(normalsScatter(normals, neighborhood.index(), neighborhood.size()));
+}
+
+Eigen::Matrix3d normalsScatter(const Normals& normals, const std::uint32_t* points, std::size_t count)
+{
   constexpr std::size_t kBatch = 256;
   std::array<std::array<float, kBatch>, 3> batch;
   const float* const all[] = {normals.x.data(), normals.y.data(), normals.z.data()};
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (std::size_t begin = 0; begin < neighborhood.size(); begin += kBatch) {
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
     float* const gathered[] = {batch[0].data(), batch[1].data(), batch[2].data()};
-    const std::size_t count =
-        gatherMeasured(all, neighborhood.index() + begin, std::min(kBatch, neighborhood.size() - begin), gathered);
+    const std::size_t measured = gatherMeasured(all, points + begin, std::min(kBatch, count - begin), gathered);
     std::array<double, momentCount(2)> sums;
-    sumMoments(gathered, count, origin.data(), sums.data(), 2);
+    sumMoments(gathered, measured, origin.data(), sums.data(), 2);
     scatter += secondMoments(sums.data());
   }
+  return scatter;
+}
+
+std::optional<Eigen::Vector3d> normalsAxis(const Eigen::Matrix3d& scatter)
+{
   return distinctEigenvector(scatter, Extreme::smallest);
 }
 

@@ -40,6 +40,23 @@ Eigen::Vector3d normalTowards(const Eigen::Vector3d& sensor, const Eigen::Vector
   return across.norm() > kAlongAxis ? across.normalized() : axis.unitOrthogonal();
 }
 
+Eigen::Vector3d meanOfFirst(std::size_t count, const Neighborhood& neighborhood)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    sum += neighborhood.point(i).cast<double>();
+  }
+  return sum / static_cast<double>(count);
+}
+
+Shell transformed(Shell shell, const Eigen::Isometry3d& T)
+{
+  shell.centroid = T * shell.centroid;
+  shell.axis = withLargestComponentPositive(T.linear() * shell.axis);
+  shell.normal = T.linear() * shell.normal;
+  return shell;
+}
+
 std::optional<Outcome> enoughPoints(std::size_t points, const Config& config)
 {
   return points >= static_cast<std::size_t>(config.neighborhood.min_points) ? kGoesOn : Outcome::too_few_points;
@@ -61,25 +78,27 @@ void SampleBlock::Remaining::pass(Stage&& stage)
   size_ = kept;
 }
 
-void SampleBlock::examine(const PreparedCloud& prepared, const Config& config, std::uint64_t begin, std::uint64_t end,
+void SampleBlock::examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
                           SampleResult* results)
 {
   Remaining all;
+  spheres_.resize(kSamples * views.size());
   for (std::uint64_t i = begin; i < end; ++i) {
     Sample& sample = samples_[i - begin];
     sample.number = i;
-    sample.point = prepared.samplePoint(config, i);
+    sample.point = views.samplePoint(config.sampling, i);
+    sample.spheres = &spheres_[(i - begin) * views.size()];
     sample.result = &results[i - begin];
     sample.result->outcome = Outcome::shell;
     all.add(sample);
   }
   // To the letter, with no distance, the filter rejects most samples: then it is worth a look before their points are
   // gathered.
-  const bool in_window = prepared.windowSearch() != nullptr && config.neighborhood.kind == NeighborhoodKind::radius;
-  const bool looks = in_window && config.occlusion.filter && config.occlusion.min_distance_in_front == 0.0;
+  const bool looks = config.occlusion.filter && config.occlusion.min_distance_in_front == 0.0 &&
+                     config.neighborhood.kind == NeighborhoodKind::radius && views.allHaveImages();
   if (looks) {
-    look(all, prepared, config);
-    filterOccluded(all, prepared, config);
+    look(all, views, config);
+    filterOccluded(all, views, config);
   }
   for (std::size_t first = 0; first < all.size(); first += kFittedAtOnce) {
     Remaining samples;
@@ -87,66 +106,50 @@ void SampleBlock::examine(const PreparedCloud& prepared, const Config& config, s
       all[i].neighborhood = &neighborhoods_[i - first];
       samples.add(all[i]);
     }
-    findNeighborhoods(samples, in_window, prepared, config);
+    findNeighborhoods(samples, views, config);
     if (!looks) {
-      filterOccluded(samples, prepared, config);
+      filterOccluded(samples, views, config);
     }
     Stopwatch stopwatch;
     sumMoments(samples, config);
     if (config.estimation.estimator == Estimator::taubin) {
-      estimateCurvatureAxes(samples, prepared, config);
+      estimateCurvatureAxes(samples, views, config);
     } else {
-      estimatePrincipalAxes(samples, prepared, config);
+      estimatePrincipalAxes(samples, views, config);
     }
-    fitCylinders(samples, prepared, config);
+    fitCylinders(samples, views, config);
     times.fit += stopwatch.lap();
-    fitShells(samples, prepared, config);
+    fitShells(samples, views, config);
     times.shell += stopwatch.lap();
   }
 }
 
-void SampleBlock::look(Remaining& samples, const PreparedCloud& prepared, const Config& config)
+void SampleBlock::look(Remaining& samples, const PreparedViews& views, const Config& config)
 {
   Stopwatch stopwatch;
-  samples.pass([&](Sample& sample) {
-    const Eigen::Vector3f center = prepared.cloud->point(sample.point);
-    sample.sphere = prepared.windowSearch()->look(center, PreparedCloud::neighborhoodRadius(config));
-    return enoughPoints(sample.sphere.survey.points, config);
-  });
+  samples.pass([&](Sample& sample) { return enoughPoints(views.look(sample.point, config, sample.spheres), config); });
   times.neighborhoods += stopwatch.lap();
 }
 
-void SampleBlock::findNeighborhoods(Remaining& samples, bool in_window, const PreparedCloud& prepared,
-                                    const Config& config)
+void SampleBlock::findNeighborhoods(Remaining& samples, const PreparedViews& views, const Config& config)
 {
   Stopwatch stopwatch;
   samples.pass([&](Sample& sample) {
-    if (in_window) {
-      const Eigen::Vector3f center = prepared.cloud->point(sample.point);
-      const float radius = PreparedCloud::neighborhoodRadius(config);
-      const bool with_index = config.estimation.estimator == Estimator::normals;
-      sample.sphere = prepared.windowSearch()->gather(center, radius, with_index, *sample.neighborhood);
-    } else {
-      prepared.findNeighborhood(sample.point, config, *sample.neighborhood);
-      if (prepared.image && config.occlusion.filter) {
-        sample.sphere = viewOf(*sample.neighborhood, *prepared.image);
-      }
-    }
+    const bool with_index = config.estimation.estimator == Estimator::normals;
+    views.gather(sample.point, config, with_index, *sample.neighborhood, sample.spheres, part_);
     return enoughPoints(sample.neighborhood->size(), config);
   });
   times.neighborhoods += stopwatch.lap();
 }
 
-void SampleBlock::filterOccluded(Remaining& samples, const PreparedCloud& prepared, const Config& config)
+void SampleBlock::filterOccluded(Remaining& samples, const PreparedViews& views, const Config& config)
 {
-  if (!config.occlusion.filter || !prepared.image) {
+  if (!config.occlusion.filter) {
     return;
   }
   Stopwatch stopwatch;
   samples.pass([&](const Sample& sample) {
-    const auto enough = static_cast<std::size_t>(config.occlusion.max_points_in_front);
-    const bool hidden = occluded(*prepared.image, sample.sphere, enough, config.occlusion.min_distance_in_front);
-    return hidden ? Outcome::occluded : kGoesOn;
+    return views.occluded(config.occlusion, sample.spheres) ? Outcome::occluded : kGoesOn;
   });
   times.occlusion += stopwatch.lap();
 }
@@ -163,7 +166,7 @@ void SampleBlock::sumMoments(Remaining& samples, const Config& config)
   });
 }
 
-void SampleBlock::estimateCurvatureAxes(Remaining& samples, const PreparedCloud& prepared, const Config& config)
+void SampleBlock::estimateCurvatureAxes(Remaining& samples, const PreparedViews& views, const Config& config)
 {
   fitter_.clear();
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -178,9 +181,10 @@ void SampleBlock::estimateCurvatureAxes(Remaining& samples, const PreparedCloud&
     if (!sample.fit) {
       return Outcome::degenerate;
     }
-    const auto curvature = medianCurvature(sample.fit->quadric, *sample.neighborhood, prepared.sensor,
-                                           static_cast<std::size_t>(config.estimation.curvature_points),
-                                           randomBits(config.sampling.seed, sample.number, 1), curvature_scratch_);
+    const auto curvature =
+        medianCurvature(sample.fit->quadric, *sample.neighborhood, views[sample.point.view].sensor,
+                        static_cast<std::size_t>(config.estimation.curvature_points),
+                        randomBits(config.sampling.seed, sample.number, 1), curvature_scratch_, sample.ownPoints());
     if (!curvature) {
       return Outcome::degenerate;
     }
@@ -191,12 +195,12 @@ void SampleBlock::estimateCurvatureAxes(Remaining& samples, const PreparedCloud&
   });
 }
 
-void SampleBlock::estimatePrincipalAxes(Remaining& samples, const PreparedCloud& prepared, const Config& config)
+void SampleBlock::estimatePrincipalAxes(Remaining& samples, const PreparedViews& views, const Config& config)
 {
   samples.pass([&](Sample& sample) -> std::optional<Outcome> {
     const auto axis = config.estimation.estimator == Estimator::pca
                           ? pointsAxis(sample.moments)
-                          : normalsAxis(*sample.neighborhood, prepared.normals.normals());
+                          : views.normalsAxis(sample.point, *sample.neighborhood, sample.spheres);
     if (!axis) {
       return Outcome::degenerate;
     }
@@ -208,7 +212,7 @@ void SampleBlock::estimatePrincipalAxes(Remaining& samples, const PreparedCloud&
 }
 
 /// The cylinder through each neighborhood, about its axis.
-void SampleBlock::fitCylinders(Remaining& samples, const PreparedCloud& prepared, const Config& config)
+void SampleBlock::fitCylinders(Remaining& samples, const PreparedViews& views, const Config& config)
 {
   samples.pass([&](Sample& sample) -> std::optional<Outcome> {
     sample.axis = withLargestComponentPositive(sample.axis);
@@ -223,25 +227,37 @@ void SampleBlock::fitCylinders(Remaining& samples, const PreparedCloud& prepared
     sample.cylinder.axis = sample.axis;
     sample.cylinder.radius = circle->radius;
 
-    // Concave: the points lie on the far side of the axis, seen from the sensor.
-    const Eigen::Vector2d to_center = circle->center - circle->mean;
-    const Eigen::Vector3d to_sensor = prepared.sensor - center;
+    // Concave: the points that the sensor saw lie on the far side of the axis.
+    Eigen::Vector2d seen = circle->mean;
+    if (sample.ownPoints() < sample.neighborhood->size()) {
+      const Eigen::Vector3d offset = meanOfFirst(sample.ownPoints(), *sample.neighborhood) - center;
+      seen = {offset.dot(first), offset.dot(second)};
+    }
+    const Eigen::Vector2d to_center = circle->center - seen;
+    const Eigen::Vector3d to_sensor = views[sample.point.view].sensor - center;
     const bool far_side = to_center.dot(Eigen::Vector2d(to_sensor.dot(first), to_sensor.dot(second))) > 0.0;
     const bool refused = config.estimation.reject_concave && (sample.concave || far_side);
     return refused ? Outcome::concave : kGoesOn;
   });
 }
 
-void SampleBlock::fitShells(Remaining& samples, const PreparedCloud& prepared, const Config& config)
+void SampleBlock::fitShells(Remaining& samples, const PreparedViews& views, const Config& config)
 {
-  samples.pass([&](Sample& sample) { return fitShell(sample, prepared, config); });
+  samples.pass([&](Sample& sample) {
+    const std::optional<Outcome> ended = fitShell(sample, views, config);
+    if (!ended) {
+      Shell& shell = sample.result->shell;
+      shell = transformed(shell, views.T_common_view(sample.point.view));
+    }
+    return ended;
+  });
 }
 
-std::optional<Outcome> SampleBlock::fitShell(Sample& sample, const PreparedCloud& prepared, const Config& config)
+std::optional<Outcome> SampleBlock::fitShell(Sample& sample, const PreparedViews& views, const Config& config)
 {
-  const ShellSurroundings surroundings{*prepared.search, prepared.hidden_search ? &*prepared.hidden_search : nullptr,
-                                       prepared.image ? &*prepared.image : nullptr,
-                                       prepared.spacing(sample.neighborhood->center.cast<double>())};
+  const std::size_t view = sample.point.view;
+  const ShellSurroundings surroundings =
+      views.surroundings(view, views.spacing(view, sample.neighborhood->center.cast<double>()));
   const ShellSearchResult found = shell_search_.search(surroundings, sample.cylinder, config.hand, config.shell);
   if (found.status != ShellSearchResult::found) {
     return found.status == ShellSearchResult::too_short ? Outcome::too_short : Outcome::no_shell;
@@ -249,25 +265,26 @@ std::optional<Outcome> SampleBlock::fitShell(Sample& sample, const PreparedCloud
 
   Shell& shell = sample.result->shell;
   shell.curvature = sample.curvature;
-  shell.point_index = sample.point;
+  shell.point_index = views.firstPoint(view) + sample.point.point;
   shell.axis = sample.axis;
   shell.centroid = found.centroid;
-  shell.normal = normalTowards(prepared.sensor, found.centroid, sample.axis);
+  shell.normal = normalTowards(views[view].sensor, found.centroid, sample.axis);
   shell.inner_radius = found.inner_radius;
   shell.thickness = config.hand.finger_thickness;
   shell.length = found.length;
   shell.points_inside = found.points_inside;
   shell.points_in_gap = found.points_in_gap;
   shell.observed_free = kUnknown;
-  if (!prepared.image) {
+  if (surroundings.image == nullptr) {
     return kGoesOn;
   }
-  shell.observed_free = observedFreeShare(*prepared.image, found, shell.axis, shell.normal, shell.thickness);
+  const RangeImage& image = *surroundings.image;
+  shell.observed_free = observedFreeShare(image, found, shell.axis, shell.normal, shell.thickness, surroundings.others);
   if (config.shell.require_observed_gap && shell.observed_free < config.shell.min_observed_free) {
     return Outcome::unobserved_gap;
   }
   if (config.shell.min_coverage > 0.0 &&
-      silhouetteCoverage(*prepared.image, found, shell.axis, shell.normal) < config.shell.min_coverage) {
+      silhouetteCoverage(image, found, shell.axis, shell.normal) < config.shell.min_coverage) {
     return Outcome::uncovered;
   }
   return kGoesOn;

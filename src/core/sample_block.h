@@ -7,7 +7,7 @@
 #include "grasp_affordances/quadric.h"
 #include "grasp_affordances/shell.h"
 
-#include "core/prepared_cloud.h"
+#include "core/prepared_views.h"
 
 #include <Eigen/Core>
 
@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace grasp_affordances
 {
@@ -34,7 +35,7 @@ public:
   static constexpr std::size_t kSamples = 64;
 
   /// Examines the samples [begin, end), at most kSamples; the result of the first goes to results[0].
-  void examine(const PreparedCloud& prepared, const Config& config, std::uint64_t begin, std::uint64_t end,
+  void examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
                SampleResult* results);
 
   StageTimes times;  ///< summed over the samples since it was last reset
@@ -43,8 +44,8 @@ private:
   struct Sample
   {
     std::uint64_t number;
-    std::uint32_t point;
-    SphereView sphere;           // with a range image and the occlusion filter only
+    PreparedViews::SamplePoint point;
+    SphereView* spheres;         // by view
     Neighborhood* neighborhood;  // of those that are fitted at once
     Moments moments;
     std::optional<TaubinFit> fit;
@@ -53,6 +54,9 @@ private:
     bool concave;
     FittedCylinder cylinder;
     SampleResult* result;
+
+    /// How many of the neighborhood's points, the first ones, the view saw that the sample was drawn from.
+    std::size_t ownPoints() const { return spheres[point.view].survey.points; }
   };
 
   /// Samples that have not ended.
@@ -74,18 +78,20 @@ private:
 
   static constexpr std::size_t kFittedAtOnce = TaubinFitter::kCapacity;
 
-  void look(Remaining& samples, const PreparedCloud& prepared, const Config& config);
-  void findNeighborhoods(Remaining& samples, bool in_window, const PreparedCloud& prepared, const Config& config);
-  void filterOccluded(Remaining& samples, const PreparedCloud& prepared, const Config& config);
+  void look(Remaining& samples, const PreparedViews& views, const Config& config);
+  void findNeighborhoods(Remaining& samples, const PreparedViews& views, const Config& config);
+  void filterOccluded(Remaining& samples, const PreparedViews& views, const Config& config);
   void sumMoments(Remaining& samples, const Config& config);
-  void estimateCurvatureAxes(Remaining& samples, const PreparedCloud& prepared, const Config& config);
-  void estimatePrincipalAxes(Remaining& samples, const PreparedCloud& prepared, const Config& config);
-  void fitCylinders(Remaining& samples, const PreparedCloud& prepared, const Config& config);
-  void fitShells(Remaining& samples, const PreparedCloud& prepared, const Config& config);
-  std::optional<Outcome> fitShell(Sample& sample, const PreparedCloud& prepared, const Config& config);
+  void estimateCurvatureAxes(Remaining& samples, const PreparedViews& views, const Config& config);
+  void estimatePrincipalAxes(Remaining& samples, const PreparedViews& views, const Config& config);
+  void fitCylinders(Remaining& samples, const PreparedViews& views, const Config& config);
+  void fitShells(Remaining& samples, const PreparedViews& views, const Config& config);
+  std::optional<Outcome> fitShell(Sample& sample, const PreparedViews& views, const Config& config);
 
   std::array<Sample, kSamples> samples_;
+  std::vector<SphereView> spheres_;
   std::array<Neighborhood, kFittedAtOnce> neighborhoods_;
+  Neighborhood part_;  // of one of several views
   TaubinFitter fitter_;
   CurvatureScratch curvature_scratch_;
   ShellSearch shell_search_;

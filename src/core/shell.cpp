@@ -40,6 +40,11 @@ struct SliceCounts
 {
   ShellCounts points, hidden;
 
+  void operator+=(const SliceCounts& other)
+  {
+    points += other.points;
+    hidden += other.hidden;
+  }
   std::uint32_t inGap() const { return points.up_to_outer - points.inside; }
   std::uint32_t hiddenInGap() const { return hidden.up_to_outer - hidden.inside; }
 };
@@ -86,6 +91,16 @@ AxisFrame axisFrame(const FittedCylinder& cylinder)
   return frame;
 }
 
+AxisFrame transformed(const AxisFrame& frame, const Eigen::Isometry3d& T)
+{
+  AxisFrame result;
+  Eigen::Map<Eigen::Vector3d>(result.origin) = T * asVector(frame.origin);
+  Eigen::Map<Eigen::Vector3d>(result.axis) = T.linear() * asVector(frame.axis);
+  Eigen::Map<Eigen::Vector3d>(result.first) = T.linear() * asVector(frame.first);
+  Eigen::Map<Eigen::Vector3d>(result.second) = T.linear() * asVector(frame.second);
+  return result;
+}
+
 PlaneMoments planeMoments(const PlaneMomentParts& parts)
 {
   std::array<double, kPlaneMoments> sums;
@@ -97,9 +112,15 @@ PlaneMoments planeMoments(const PlaneMomentParts& parts)
 
 }  // namespace
 
-struct ShellSearch::Memory
+/// What is gathered from one view about an axis.
+struct ViewSlices
 {
   AxisSlices points, hidden;
+};
+
+struct ShellSearch::Memory
+{
+  std::vector<ViewSlices> views;    // the shell's own first; more than there are now, perhaps
   std::vector<SliceCounts> counts;  // slices, in the shell that was looked at last
 };
 
@@ -111,14 +132,14 @@ class DirectedSearch
 {
 public:
   DirectedSearch(const ShellSurroundings& surroundings, const HandGeometry& hand, const ShellConfig& config,
-                 AxisSlices& points, AxisSlices& hidden, std::vector<SliceCounts>& counts)
+                 ViewSlices* views, std::vector<SliceCounts>& counts)
       : surroundings_(surroundings),
         hand_(hand),
         config_(config),
         slices_(makeSlices(config, surroundings.spacing)),
         thresholds_(pointThresholds(config, surroundings.spacing)),
-        points_(points),
-        hidden_(hidden),
+        views_(views),
+        view_count_(1 + otherViews(surroundings).size()),
         counts_(counts)
   {
     counts_.resize(slices_.count);
@@ -131,10 +152,14 @@ public:
   std::optional<FittedCylinder> refit() const;
 
 private:
+  static const std::vector<OtherView>& otherViews(const ShellSurroundings& surroundings);
   void lookAlong(const FittedCylinder& cylinder);
+  template <typename Visitor>
+  void visitPoints(std::size_t slice, double reach, Visitor&& visit) const;
   ShellBounds boundsOf(double inner_radius) const;
   bool clearAndOccupied(const Extent& extent) const;
   bool unseen(std::size_t slice) const;
+  bool unseen(std::size_t slice, const RangeImage* image, const Eigen::Isometry3d& T_image_this) const;
   SliceCounts countSlice(std::size_t slice, const ShellBounds& shell) const;
   Extent clearanceExtent(const ShellBounds& shell) const;
   bool graspable(std::size_t slice, const ShellBounds& shell) const;
@@ -146,13 +171,20 @@ private:
   const ShellConfig& config_;
   const Slices slices_;
   const PointThresholds thresholds_;
-  AxisSlices &points_, &hidden_;
+  ViewSlices* views_;
+  std::size_t view_count_;
   std::vector<SliceCounts>& counts_;  // slices, in the shell that was looked at last
   std::optional<AxisFrame> frame_;    // of the points
   FittedCylinder cylinder_;           // that is searched about
   Extent found_;
   ShellBounds found_bounds_{};
 };
+
+const std::vector<OtherView>& DirectedSearch::otherViews(const ShellSurroundings& surroundings)
+{
+  static const std::vector<OtherView> kNone;
+  return surroundings.others != nullptr ? *surroundings.others : kNone;
+}
 
 /// Gathers points around a cylinder's axis, unless those that were gathered before serve as well.
 void DirectedSearch::lookAlong(const FittedCylinder& cylinder)
@@ -164,8 +196,23 @@ void DirectedSearch::lookAlong(const FittedCylinder& cylinder)
   }
   frame_ = axisFrame(cylinder);
   const double reach = hand_.capture_radius + hand_.finger_thickness + (config_.recenter ? kLargestShift : 0.0);
-  points_.start(&surroundings_.cloud, *frame_, slices_, reach);
-  hidden_.start(surroundings_.hidden, *frame_, slices_, reach);
+  views_[0].points.start(&surroundings_.cloud, *frame_, slices_, reach);
+  views_[0].hidden.start(surroundings_.hidden, *frame_, slices_, reach);
+  for (std::size_t i = 1; i < view_count_; ++i) {
+    const OtherView& other = (*surroundings_.others)[i - 1];
+    const AxisFrame frame = transformed(*frame_, other.T_other_this);
+    views_[i].points.start(other.cloud, frame, slices_, reach);
+    views_[i].hidden.start(other.hidden, frame, slices_, reach);
+  }
+}
+
+/// Calls visit(points) with those of each view: places along and across the axis are the same in all frames.
+template <typename Visitor>
+void DirectedSearch::visitPoints(std::size_t slice, double reach, Visitor&& visit) const
+{
+  for (std::size_t i = 0; i < view_count_; ++i) {
+    visit(views_[i].points.get(slice, reach));
+  }
 }
 
 ShellSearchResult DirectedSearch::about(const FittedCylinder& cylinder)
@@ -212,7 +259,7 @@ std::optional<FittedCylinder> DirectedSearch::refit() const
   shell.end = found_.end;
   PlaneMomentParts parts;
   for (std::size_t slice = found_.first_slice; slice <= found_.last_slice; ++slice) {
-    addMoments(points_.get(slice, shell.reach), shell, parts);
+    visitPoints(slice, shell.reach, [&](const AxisPoints& points) { addMoments(points, shell, parts); });
   }
   const auto circle = fitCircleTaubin(planeMoments(parts));
   if (!circle) {
@@ -258,11 +305,19 @@ bool DirectedSearch::clearAndOccupied(const Extent& extent) const
          extent.in_gap + extent.hidden_in_gap < lengths * thresholds_.gap_points_to_block;
 }
 
-/// Whether the sensor could see nothing of a slice: in front of the axis something nearer than the hand reaches was
-/// measured, or nothing.
+/// Whether no sensor could see anything of a slice.
 bool DirectedSearch::unseen(std::size_t slice) const
 {
-  const RangeImage* image = surroundings_.image;
+  const std::vector<OtherView>& others = otherViews(surroundings_);
+  return unseen(slice, surroundings_.image, Eigen::Isometry3d::Identity()) &&
+         std::all_of(others.begin(), others.end(), [&](const OtherView& other) {
+           return other.image == nullptr || unseen(slice, other.image, other.T_other_this);
+         });
+}
+
+/// In front of the axis something nearer than the hand reaches was measured, or nothing.
+bool DirectedSearch::unseen(std::size_t slice, const RangeImage* image, const Eigen::Isometry3d& T_image_this) const
+{
   if (image == nullptr) {
     return false;
   }
@@ -272,17 +327,21 @@ bool DirectedSearch::unseen(std::size_t slice) const
            image->cloud().point(*pixel).cast<double>().norm() > point.norm() - hand_.capture_radius;
   };
   const double along = (slices_.beginOf(slice) + slices_.endOf(slice)) / 2;
-  const Eigen::Vector3d middle = cylinder_.origin + along * cylinder_.axis;
-  const Eigen::Vector3d across = 0.5 * cylinder_.radius * cylinder_.axis.cross(cylinder_.origin).normalized();
+  const Eigen::Vector3d origin = T_image_this * cylinder_.origin, axis = T_image_this.linear() * cylinder_.axis;
+  const Eigen::Vector3d middle = origin + along * axis;
+  const Eigen::Vector3d across = 0.5 * cylinder_.radius * axis.cross(origin).normalized();
   return !seen(middle - across) && !seen(middle) && !seen(middle + across);
 }
 
 SliceCounts DirectedSearch::countSlice(std::size_t slice, const ShellBounds& shell) const
 {
-  SliceCounts counts{countPoints(points_.get(slice, shell.reach), shell), {}};
-  const AxisPoints hidden = hidden_.get(slice, shell.reach);
-  if (hidden.size > 0) {
-    counts.hidden = countPoints(hidden, shell);
+  SliceCounts counts;
+  for (std::size_t i = 0; i < view_count_; ++i) {
+    counts.points += countPoints(views_[i].points.get(slice, shell.reach), shell);
+    const AxisPoints hidden = views_[i].hidden.get(slice, shell.reach);
+    if (hidden.size > 0) {
+      counts.hidden += countPoints(hidden, shell);
+    }
   }
   return counts;
 }
@@ -346,10 +405,16 @@ Extent DirectedSearch::refinedExtent(const Extent& extent, ShellBounds shell) co
   Extent refined;
   refined.first_slice = extent.first_slice;
   refined.last_slice = extent.last_slice;
-  refined.begin = std::max(
-      {insideRange(points_.get(first, shell.reach), shell).first - margin, extent.begin, -config_.max_length / 2});
-  refined.end =
-      std::min({insideRange(points_.get(last, shell.reach), shell).last + margin, extent.end, config_.max_length / 2});
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  AlongRange occupied{kInfinity, -kInfinity};
+  visitPoints(first, shell.reach, [&](const AxisPoints& points) {
+    occupied.first = std::min(occupied.first, insideRange(points, shell).first);
+  });
+  visitPoints(last, shell.reach, [&](const AxisPoints& points) {
+    occupied.last = std::max(occupied.last, insideRange(points, shell).last);
+  });
+  refined.begin = std::max({occupied.first - margin, extent.begin, -config_.max_length / 2});
+  refined.end = std::min({occupied.last + margin, extent.end, config_.max_length / 2});
   shell.begin = refined.begin;
   shell.end = refined.end;
   for (std::size_t slice = extent.first_slice; slice <= extent.last_slice; ++slice) {
@@ -369,7 +434,11 @@ ShellSearch& ShellSearch::operator=(ShellSearch&&) noexcept = default;
 ShellSearchResult ShellSearch::search(const ShellSurroundings& surroundings, const FittedCylinder& cylinder,
                                       const HandGeometry& hand, const ShellConfig& config)
 {
-  DirectedSearch search(surroundings, hand, config, memory_->points, memory_->hidden, memory_->counts);
+  const std::size_t views = 1 + (surroundings.others != nullptr ? surroundings.others->size() : 0);
+  if (memory_->views.size() < views) {
+    memory_->views.resize(views);
+  }
+  DirectedSearch search(surroundings, hand, config, memory_->views.data(), memory_->counts);
   const ShellSearchResult found = search.about(cylinder);
   if (!config.recenter || found.status != ShellSearchResult::found) {
     return found;

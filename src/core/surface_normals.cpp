@@ -16,10 +16,10 @@ void SurfaceNormals::reset(std::size_t points)
   }
 }
 
-void SurfaceNormals::require(const Neighborhood& neighborhood)
+void SurfaceNormals::require(const std::uint32_t* points, std::size_t count)
 {
-  for (std::size_t i = 0; i < neighborhood.size(); ++i) {
-    required_[neighborhood.index()[i]].store(1, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < count; ++i) {
+    required_[points[i]].store(1, std::memory_order_relaxed);
   }
 }
 

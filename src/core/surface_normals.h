@@ -25,8 +25,8 @@ public:
   /// Starts over, with no normals, for a cloud of so many points.
   void reset(std::size_t points);
 
-  /// Asks for the normals of a neighborhood's points. Safe to call from many threads.
-  void require(const Neighborhood& neighborhood);
+  /// Asks for the normals of points, by their indices. Safe to call from many threads.
+  void require(const std::uint32_t* points, std::size_t count);
 
   /// Computes what was asked for: the planes that fit the points within `radius` (m) of each point.
   /// @param stride 1 for all points that were asked for; otherwise those of every stride-th row and column, where the

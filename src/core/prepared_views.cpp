@@ -1,0 +1,274 @@
+#include "core/prepared_views.h"
+
+#include "grasp_affordances/principal_axis.h"
+#include "grasp_affordances/sampling.h"
+
+#include <algorithm>
+#include <array>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+/// Where a neighborhood is all points within a sphere: its radius (m).
+float sphereRadius(const Config& config)
+{
+  const double radius = config.neighborhood.radius;
+  return static_cast<float>(radius > 0.0 ? radius : config.hand.capture_radius);
+}
+
+}  // namespace
+
+void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& config,
+                           const Eigen::Isometry3d& T_workspace_common, ThreadTeam& team)
+{
+  while (clouds_.size() < views.size()) {
+    clouds_.emplace_back();
+  }
+  views_.clear();
+  warnings.clear();
+  measured = 0;
+  std::uint32_t first_point = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    PreparedCloud& cloud = clouds_[i];
+    cloud.update(*views[i].cloud, config, T_workspace_common * views[i].T_common_cloud, team);
+    for (const std::string& warning : cloud.warnings) {
+      warnings.push_back(views.size() == 1 ? warning : "view " + std::to_string(i + 1) + ": " + warning);
+    }
+    if (cloud.search != nullptr) {
+      views_.push_back({&cloud, views[i].T_common_cloud, first_point});
+    }
+    measured += static_cast<std::uint32_t>(cloud.measured.size());
+    first_point += static_cast<std::uint32_t>(views[i].cloud->size());
+  }
+  others_.resize(size());
+  if (size() > 1) {
+    joinPoints();
+    relateViews();
+    uncoverHiddenSurfaces(config.hand.finger_thickness, team);
+  }
+  if (!views_.empty() && !hasSamples()) {
+    warnings.emplace_back("nothing to localize: no measured point lies within the workspace");
+  }
+  if (hasSamples() && config.estimation.estimator == Estimator::normals) {
+    estimateNormals(config, team);
+  }
+}
+
+void PreparedViews::joinPoints()
+{
+  points_.clear();
+  screened_.clear();
+  for (const View& view : views_) {
+    const auto numbered = [&](std::uint32_t point) { return view.first_point + point; };
+    const std::vector<std::uint32_t>&all = view.cloud->points(), &screened = view.cloud->screen.points();
+    std::transform(all.begin(), all.end(), std::back_inserter(points_), numbered);
+    std::transform(screened.begin(), screened.end(), std::back_inserter(screened_), numbered);
+  }
+}
+
+void PreparedViews::relateViews()
+{
+  T_.clear();
+  for (const View& to : views_) {
+    for (const View& from : views_) {
+      T_.push_back(to.T_common_cloud.inverse() * from.T_common_cloud);
+    }
+  }
+  for (std::size_t view = 0; view < size(); ++view) {
+    others_[view].clear();
+    for (std::size_t other = 0; other < size(); ++other) {
+      if (other != view) {
+        const ShellSurroundings seen = surroundings(other, 0.0);
+        others_[view].push_back({&seen.cloud, seen.hidden, seen.image, transform(other, view)});
+      }
+    }
+  }
+}
+
+/// What one view takes to be hidden, another may have seen through.
+void PreparedViews::uncoverHiddenSurfaces(double margin, ThreadTeam& team)
+{
+  for (std::size_t view = 0; view < size(); ++view) {
+    PreparedCloud& cloud = *views_[view].cloud;
+    if (!cloud.hidden_search) {
+      continue;
+    }
+    for (std::size_t other = 0; other < size(); ++other) {
+      if (other != view && views_[other].cloud->image) {
+        cloud.hidden.remove(
+            [&](const Eigen::Vector3f& point) {
+              return sawThrough(other, transform(other, view) * point.cast<double>(), margin);
+            },
+            team);
+      }
+    }
+  }
+}
+
+/// Whether a view measured something farther than a point in its frame, by more than a margin (m).
+bool PreparedViews::sawThrough(std::size_t view, const Eigen::Vector3d& point, double margin) const
+{
+  const RangeImage& image = *views_[view].cloud->image;
+  const auto pixel = image.pixel(point);
+  return pixel && image.cloud().measured(*pixel) &&
+         image.cloud().point(*pixel).cast<double>().norm() > point.norm() + margin;
+}
+
+PreparedViews::SamplePoint PreparedViews::samplePoint(const SamplingConfig& config, std::uint64_t i) const
+{
+  const std::vector<std::uint32_t>& screened = size() == 1 ? views_[0].cloud->screen.points() : screened_;
+  const std::uint32_t point = grasp_affordances::samplePoint(samplePoints(), screened, config, i);
+  if (size() == 1) {
+    return {0, point};
+  }
+  std::size_t view = size() - 1;
+  while (views_[view].first_point > point) {
+    --view;
+  }
+  return {view, point - views_[view].first_point};
+}
+
+bool PreparedViews::allHaveImages() const
+{
+  return std::all_of(views_.begin(), views_.end(), [](const View& view) { return view.cloud->image.has_value(); });
+}
+
+Eigen::Vector3f PreparedViews::centerIn(std::size_t view, const SamplePoint& sample) const
+{
+  const Eigen::Vector3f center = views_[sample.view].cloud->cloud->point(sample.point);
+  return view == sample.view ? center
+                             : Eigen::Vector3f((transform(view, sample.view) * center.cast<double>()).cast<float>());
+}
+
+std::size_t PreparedViews::look(const SamplePoint& sample, const Config& config, SphereView* spheres) const
+{
+  std::size_t points = 0;
+  for (std::size_t view = 0; view < size(); ++view) {
+    spheres[view] = views_[view].cloud->windowSearch()->look(centerIn(view, sample), sphereRadius(config));
+    points += spheres[view].survey.points;
+  }
+  return points;
+}
+
+void PreparedViews::gather(const SamplePoint& sample, const Config& config, bool with_index, Neighborhood& neighborhood,
+                           SphereView* spheres, Neighborhood& part) const
+{
+  const PreparedCloud& own = *views_[sample.view].cloud;
+  const Eigen::Vector3f center = centerIn(sample.view, sample);
+  const bool knn = config.neighborhood.kind == NeighborhoodKind::knn;
+  if (size() == 1) {
+    *spheres = knn ? own.gatherNearest(center, static_cast<std::size_t>(config.neighborhood.k), config.occlusion.filter,
+                                       neighborhood)
+                   : own.gather(center, sphereRadius(config), with_index, neighborhood);
+    return;
+  }
+  const float radius = knn ? radiusOfNearest(sample, config, neighborhood, part) : sphereRadius(config);
+  spheres[sample.view] = own.gather(center, radius, with_index, neighborhood);
+  for (std::size_t view = 0; view < size(); ++view) {
+    if (view != sample.view) {
+      spheres[view] = views_[view].cloud->gather(centerIn(view, sample), radius, with_index, part);
+      neighborhood.append(part, transform(sample.view, view));
+    }
+  }
+}
+
+/// The distance of the k-th nearest point of all views, or of the last where there are fewer.
+float PreparedViews::radiusOfNearest(const SamplePoint& sample, const Config& config, Neighborhood& joined,
+                                     Neighborhood& part) const
+{
+  const auto k = static_cast<std::size_t>(config.neighborhood.k);
+  views_[sample.view].cloud->search->nearest(centerIn(sample.view, sample), k, joined);
+  for (std::size_t view = 0; view < size(); ++view) {
+    if (view != sample.view) {
+      views_[view].cloud->search->nearest(centerIn(view, sample), k, part);
+      joined.append(part, transform(sample.view, view));
+    }
+  }
+  joined.keepNearest(std::min(k, joined.size()));
+  return joined.radius;
+}
+
+bool PreparedViews::occluded(const OcclusionConfig& config, const SphereView* spheres) const
+{
+  const auto enough = static_cast<std::size_t>(config.max_points_in_front);
+  for (std::size_t view = 0; view < size(); ++view) {
+    const std::optional<RangeImage>& image = views_[view].cloud->image;
+    if (spheres[view].survey.points > 0 &&
+        !(image && grasp_affordances::occluded(*image, spheres[view], enough, config.min_distance_in_front))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Calls visit(view, begin, count) for the points of a gathered neighborhood that each view contributed.
+template <typename Visitor>
+void PreparedViews::visitParts(const SamplePoint& sample, const SphereView* spheres, Visitor&& visit) const
+{
+  std::size_t begin = spheres[sample.view].survey.points;
+  visit(sample.view, std::size_t{0}, begin);
+  for (std::size_t view = 0; view < size(); ++view) {
+    if (view != sample.view) {
+      visit(view, begin, spheres[view].survey.points);
+      begin += spheres[view].survey.points;
+    }
+  }
+}
+
+std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const SamplePoint& sample, const Neighborhood& neighborhood,
+                                                          const SphereView* spheres) const
+{
+  if (size() == 1) {
+    return grasp_affordances::normalsAxis(neighborhood, views_[0].cloud->normals.normals());
+  }
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  visitParts(sample, spheres, [&](std::size_t view, std::size_t begin, std::size_t count) {
+    const Eigen::Matrix3d rotation = transform(sample.view, view).linear();
+    const Normals& normals = views_[view].cloud->normals.normals();
+    scatter += rotation * normalsScatter(normals, neighborhood.index() + begin, count) * rotation.transpose();
+  });
+  return grasp_affordances::normalsAxis(scatter);
+}
+
+/// Those of all points in the neighborhoods of the samples that are not occluded.
+void PreparedViews::estimateNormals(const Config& config, ThreadTeam& team)
+{
+  for (const View& view : views_) {
+    view.cloud->normals.reset(view.cloud->cloud->size());
+  }
+  neighborhoods_.resize(2 * team.size());
+  spheres_.resize(size() * team.size());
+  team.forEach(static_cast<std::size_t>(config.sampling.samples), [&](std::size_t i, std::size_t member) {
+    Neighborhood& neighborhood = neighborhoods_[2 * member];
+    SphereView* spheres = &spheres_[member * size()];
+    const SamplePoint sample = samplePoint(config.sampling, i);
+    gather(sample, config, true, neighborhood, spheres, neighborhoods_[2 * member + 1]);
+    if (!config.occlusion.filter || !occluded(config.occlusion, spheres)) {
+      visitParts(sample, spheres, [&](std::size_t view, std::size_t begin, std::size_t count) {
+        views_[view].cloud->normals.require(neighborhood.index() + begin, count);
+      });
+    }
+  });
+  const bool sparse = config.estimation.normals_mode == NormalsMode::sparse;
+  for (const View& view : views_) {
+    view.cloud->normals.compute(*view.cloud->cloud, *view.cloud->search, config.estimation.normals_radius,
+                                sparse ? SurfaceNormals::kSparseStride : 1, team);
+  }
+}
+
+double PreparedViews::spacing(std::size_t view, const Eigen::Vector3d& point) const
+{
+  const std::optional<RangeImage>& image = views_[view].cloud->image;
+  return image ? image->spacing(point.z()) : 0.0;
+}
+
+ShellSurroundings PreparedViews::surroundings(std::size_t view, double spacing) const
+{
+  const PreparedCloud& cloud = *views_[view].cloud;
+  return {*cloud.search, cloud.hidden_search ? &*cloud.hidden_search : nullptr, cloud.image ? &*cloud.image : nullptr,
+          spacing, &others_[view]};
+}
+
+}  // namespace grasp_affordances
