@@ -1,0 +1,116 @@
+#include "nodelets/localization_outputs.h"
+
+#include "grasp_affordances/CylindricalShellArray.h"
+#include "grasp_affordances/LocalizationStatistics.h"
+#include "nodelets/conversions.h"
+
+#include <ros/console.h>
+#include <visualization_msgs/MarkerArray.h>
+#include <boost/make_shared.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+std::string joined(const std::vector<std::string>& lines)
+{
+  std::string text;
+  for (const std::string& line : lines) {
+    text += (text.empty() ? "" : "; ") + line;
+  }
+  return text;
+}
+
+}  // namespace
+
+void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const std::string& name, bool lazy,
+                                    std::function<void()> subscribe, std::function<void()> unsubscribe)
+{
+  const auto changed = [this](const ros::SingleSubscriberPublisher&) { updateSubscriptions(); };
+  {
+    // Somebody may connect to a publisher, in another thread, before advertise() has returned it or before the next
+    // one exists: the callback has to wait for all of them.
+    const std::lock_guard<std::mutex> lock(connections_mutex_);
+    name_ = name;
+    lazy_ = lazy;
+    subscribe_ = std::move(subscribe);
+    unsubscribe_ = std::move(unsubscribe);
+    shells_ = private_node_handle.advertise<CylindricalShellArray>("shells", 1, changed, changed);
+    markers_ = private_node_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
+    statistics_ = private_node_handle.advertise<LocalizationStatistics>("statistics", 1, changed, changed);
+    open_ = true;
+  }
+  updateSubscriptions();
+}
+
+void LocalizationOutputs::close()
+{
+  {
+    const std::lock_guard<std::mutex> lock(connections_mutex_);
+    open_ = false;
+  }
+  updateSubscriptions();
+}
+
+bool LocalizationOutputs::anybodyListens() const
+{
+  return shells_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0 || statistics_.getNumSubscribers() > 0;
+}
+
+void LocalizationOutputs::updateSubscriptions()
+{
+  const std::lock_guard<std::mutex> lock(connections_mutex_);
+  const bool needed = open_ && (!lazy_ || anybodyListens());
+  if (needed == subscribed_) {
+    return;
+  }
+  subscribed_ = needed;
+  if (needed) {
+    subscribe_();
+  } else {
+    unsubscribe_();
+  }
+}
+
+void LocalizationOutputs::receive(const std::function<bool()>& hand_over)
+{
+  const std::lock_guard<std::mutex> lock(counters_mutex_);
+  ++received_;
+  dropped_ += hand_over() ? 1 : 0;
+}
+
+void LocalizationOutputs::reject(const std::string& reason)
+{
+  ++rejected_;
+  if (rejections_.due()) {
+    ROS_ERROR_STREAM_NAMED(name_, "cloud rejected: " << reason);
+  }
+}
+
+void LocalizationOutputs::publish(const Localization& localization, const Config& config,
+                                  const std_msgs::Header& header, Clock::time_point arrival)
+{
+  ++processed_;
+  if (!localization.warnings.empty() && warnings_.due()) {
+    ROS_WARN_STREAM_NAMED(name_, joined(localization.warnings));
+  }
+  shells_.publish(boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header)));
+  markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
+
+  auto statistics = boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, config, header));
+  statistics->clouds_processed = processed_;
+  statistics->clouds_rejected = rejected_;
+  {
+    const std::lock_guard<std::mutex> lock(counters_mutex_);
+    statistics->clouds_dropped = dropped_;
+    statistics->clouds_received = received_;
+  }
+  statistics->milliseconds_latency = std::chrono::duration<double, std::milli>(Clock::now() - arrival).count();
+  statistics_.publish(statistics);
+}
+
+}  // namespace grasp_affordances
