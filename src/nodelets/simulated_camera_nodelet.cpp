@@ -3,6 +3,7 @@
 #include "nodelets/newest_only_worker.h"
 #include "nodelets/simulated_camera_parameters.h"
 #include "simulation/camera_orbit.h"
+#include "simulation/placement.h"
 #include "simulation/scene_library.h"
 #include "simulation/sensor.h"
 
@@ -31,8 +32,6 @@ namespace grasp_affordances
 {
 namespace
 {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 /// The frames of an Xtion as openni2_launch publishes them: x forward, y left, z up, with the depth camera 2 cm to the
 /// right of the middle. Optical frames: x right, y down, z forward.
@@ -125,7 +124,7 @@ void SimulatedCameraNodelet::onInit()
 {
   try {
     parameters_ = simulatedCameraParameters(getPrivateNodeHandle());
-    view_ = makeScene(parameters_.scene, parameters_.seed);
+    view_ = viewFromAside(makeScene(parameters_.scene, parameters_.seed), kDegree * parameters_.turn_deg);
   } catch (const std::exception& error) {
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
@@ -218,7 +217,8 @@ FrameMessages SimulatedCameraNodelet::render(const Shot& shot, std::uint64_t fra
   std_msgs::Header header;
   header.stamp = shot.stamp;
   header.frame_id = optical_frame_;
-  const Frame frame = xtion_.capture(view_.scene, cameraPose(shot), parameters_.seed + frame_number);
+  const std::uint64_t seed = parameters_.seed + parameters_.noise_seed + frame_number;
+  const Frame frame = xtion_.capture(view_.scene, cameraPose(shot), seed);
   return frameMessages(frame, xtion_.model(), header);
 }
 

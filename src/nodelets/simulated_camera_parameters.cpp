@@ -38,7 +38,10 @@ SimulatedCameraParameters simulatedCameraParameters(ParameterReader read)
   using Real = Range<double>;
   SimulatedCameraParameters result;
   readWord(read, "scene", result.scene, sceneNames());
-  read("seed", result.seed, Range<std::uint64_t>{0, (std::uint64_t{1} << 53) - 1}, "", "");
+  const Range<std::uint64_t> seeds{0, (std::uint64_t{1} << 53) - 1};
+  read("seed", result.seed, seeds, "", "");
+  read("noise_seed", result.noise_seed, seeds, "", "");
+  read("turn_deg", result.turn_deg, Real{-180.0, 180.0}, "degrees", "");
   read("rate", result.rate, Real{0.1, 120.0}, "Hz", "");
   readWord(read, "motion", result.motion, {"still", "orbit"});
   read("amplitude_deg", result.amplitude_deg, Real{0.0, 45.0}, "degrees", "");

@@ -13,7 +13,9 @@ namespace grasp_affordances
 struct SimulatedCameraParameters
 {
   std::string scene = "table";        ///< a name in sceneLibrary()
-  std::uint64_t seed = 1;             ///< of the scene; the noise of frame n, from 0, has the seed seed + n
+  std::uint64_t seed = 1;             ///< of the scene
+  std::uint64_t noise_seed = 0;       ///< the noise of frame n, from 0, has the seed seed + noise_seed + n
+  double turn_deg = 0.0;              ///< degrees, -180 to 180, see viewFromAside()
   double rate = 30.0;                 ///< Hz, 0.1 to 120, of the frames
   std::string motion = "still";       ///< still or orbit
   double amplitude_deg = 5.0;         ///< degrees, 0 to 45, see CameraOrbit

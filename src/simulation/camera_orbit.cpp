@@ -36,4 +36,12 @@ Eigen::Isometry3d CameraOrbit::pose(double time) const
   return T_scene_camera_ * T_camera_target_ * Eigen::AngleAxisd(amplitude_, axis) * T_camera_target_.inverse();
 }
 
+View viewFromAside(View view, double angle)
+{
+  const Eigen::Translation3d T_scene_target(view.T_scene_camera * (distanceLookedAt(view) * Eigen::Vector3d::UnitZ()));
+  view.T_scene_camera =
+      T_scene_target * turned(angle, Eigen::Vector3d::UnitZ()) * T_scene_target.inverse() * view.T_scene_camera;
+  return view;
+}
+
 }  // namespace grasp_affordances

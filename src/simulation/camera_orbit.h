@@ -27,4 +27,9 @@ private:
   double period_;
 };
 
+/// The same scene by a camera turned about the scene's vertical, z, through the point that it looks at: it keeps its
+/// height, its tilt and its distance from that point.
+/// @param angle rad, counter-clockwise as seen from above
+View viewFromAside(View view, double angle);
+
 }  // namespace grasp_affordances

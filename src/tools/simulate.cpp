@@ -1,6 +1,8 @@
 // Renders a scene as the virtual Xtion sees it, and writes the labelled cloud, the depth image and the list of objects.
 
+#include "simulation/camera_orbit.h"
 #include "simulation/ground_truth.h"
+#include "simulation/placement.h"
 #include "simulation/scene_library.h"
 #include "simulation/sensor.h"
 #include "tools/object_list.h"
@@ -11,6 +13,7 @@
 #include <pcl/point_types.h>
 #include <png.h>
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cstddef>
@@ -28,7 +31,9 @@ namespace ga = grasp_affordances;
 namespace
 {
 
-void writeCloud(const std::string& file, const ga::Frame& frame, const std::vector<std::uint32_t>& labels)
+/// The points in the optical frame, and its pose in the scene's as VIEWPOINT.
+void writeCloud(const std::string& file, const ga::Frame& frame, const Eigen::Isometry3d& T_scene_camera,
+                const std::vector<std::uint32_t>& labels)
 {
   pcl::PointCloud<pcl::PointXYZL> cloud(frame.cloud.width, frame.cloud.height);
   for (std::size_t i = 0; i < frame.cloud.size(); ++i) {
@@ -36,6 +41,8 @@ void writeCloud(const std::string& file, const ga::Frame& frame, const std::vect
     cloud[i].label = labels[i];
   }
   cloud.is_dense = false;
+  cloud.sensor_origin_.head<3>() = T_scene_camera.translation().cast<float>();
+  cloud.sensor_orientation_ = Eigen::Quaterniond(T_scene_camera.linear()).cast<float>();
   pcl::PCDWriter().writeBinaryCompressed(file, cloud);
 }
 
@@ -86,7 +93,8 @@ void listScenes()
 int main(int argc, char** argv)
 {
   std::string scene, out, depth, objects;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1, noise_seed = 0;
+  double turn = 0.0;
   ga::GraspDefinition definition;
   bool list = false;
 
@@ -103,10 +111,19 @@ int main(int argc, char** argv)
   app.add_option("--seed", seed, "of sizes, places and noise")
       ->check(CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1))
       ->capture_default_str();
+  app.add_option("--turn", turn,
+                 "degrees: turns the camera about the vertical through the point that it looks at; counter-clockwise "
+                 "as seen from above")
+      ->check(CLI::Range(-180.0, 180.0))
+      ->capture_default_str();
+  app.add_option("--noise-seed", noise_seed, "added to the seed for the noise: cameras that see one scene differ in it")
+      ->check(CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1))
+      ->capture_default_str();
   app.add_option("--capture-radius", definition.capture_radius, "of the hand that the labels hold for, m")
       ->check(CLI::Range(0.002, 0.5))
       ->capture_default_str();
-  app.add_option("--out", out, "PCD file to write (fields x y z label, compressed)");
+  app.add_option("--out", out,
+                 "PCD file to write (fields x y z label, compressed; VIEWPOINT: the camera's pose in the scene)");
   app.add_option("--depth", depth, "PNG file to write: depth image, 16 bits, mm, 0 where nothing is measured");
   app.add_option("--objects", objects, "JSON file to write: camera, objects and affordances");
   try {
@@ -126,16 +143,16 @@ int main(int argc, char** argv)
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // failures are reported by written()
   ga::View view;
   try {
-    view = ga::makeScene(scene, seed);
+    view = ga::viewFromAside(ga::makeScene(scene, seed), ga::kDegree * turn);
   } catch (const std::exception& error) {  // not every seed leaves room for everything
     std::cerr << "simulate: " << scene << ", seed " << seed << ": " << error.what() << '\n';
     return 1;
   }
   const ga::XtionModel model;
-  const ga::Frame frame = ga::Xtion(model).capture(view.scene, view.T_scene_camera, seed);
+  const ga::Frame frame = ga::Xtion(model).capture(view.scene, view.T_scene_camera, seed + noise_seed);
   const ga::GroundTruth truth = ga::groundTruth(view, frame, model, definition);
 
-  bool good = written(out, [&] { writeCloud(out, frame, truth.labels); });
+  bool good = written(out, [&] { writeCloud(out, frame, view.T_scene_camera, truth.labels); });
   good &= written(depth, [&] { writeDepth(depth, frame); });
   good &= written(objects, [&] { writeText(objects, ga::objectList(scene, seed, view, model, definition, truth)); });
   std::size_t measured = 0;

@@ -4,6 +4,7 @@
 #include <png.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -93,6 +94,35 @@ TEST_F(SimulateTest, CloudDepthImageAndObjectListAgree)
   }
 }
 
+TEST_F(SimulateTest, TurnedCameraSeesTheSameSceneAndItsPoseIsTheViewpoint)
+{
+  ASSERT_EQ(simulate("--scene table --out a.pcd --objects a.json"), 0) << content("stderr");
+  ASSERT_EQ(simulate("--scene table --turn 90 --noise-seed 5 --out b.pcd --objects b.json"), 0) << content("stderr");
+  const nlohmann::json a = nlohmann::json::parse(content("a.json")), b = nlohmann::json::parse(content("b.json"));
+  ASSERT_EQ(a["affordances"].size(), b["affordances"].size());
+  for (std::size_t i = 0; i < a["affordances"].size(); ++i)
+    EXPECT_EQ(a["affordances"][i]["axis"], b["affordances"][i]["axis"]);
+  EXPECT_NE(a["camera"]["position"], b["camera"]["position"]);
+
+  pcl::PointCloud<pcl::PointXYZL> cloud;
+  ASSERT_EQ(pcl::io::loadPCDFile(path("b.pcd"), cloud), 0);
+  const nlohmann::json& camera = b["camera"];
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(cloud.sensor_origin_[i], camera["position"][i].get<double>(), 1e-5);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(cloud.sensor_orientation_.coeffs()[i], camera["orientation"][i].get<double>(), 1e-5);
+
+  // In the scene's frame the table's top is at z = 0, from wherever it is seen.
+  const Eigen::Isometry3f T_scene_camera =
+      Eigen::Translation3f(cloud.sensor_origin_.head<3>()) * cloud.sensor_orientation_;
+  std::size_t measured = 0, on_table = 0;
+  for (const pcl::PointXYZL& point : cloud) {
+    measured += std::isnan(point.z) ? 0 : 1;
+    on_table += std::abs((T_scene_camera * point.getVector3fMap()).z()) < 0.01F ? 1 : 0;
+  }
+  EXPECT_GT(on_table, measured / 2);
+}
+
 TEST_F(SimulateTest, LabelsAreThoseOfTheGivenHand)
 {
   ASSERT_EQ(simulate("--scene table --objects a.json --capture-radius 0.005"), 0);
@@ -109,9 +139,9 @@ TEST_F(SimulateTest, SameArgumentsGiveTheSameBytes)
 
 TEST_F(SimulateTest, RefusesBadUsage)
 {
-  for (const char* arguments :
-       {"", "--scene table", "--scene tables --out a.pcd", "--scene table --out a.pcd --seed -1",
-        "--scene table --out a.pcd --capture-radius 0", "--scene table --list"}) {
+  for (const char* arguments : {"", "--scene table", "--scene tables --out a.pcd",
+                                "--scene table --out a.pcd --seed -1", "--scene table --out a.pcd --capture-radius 0",
+                                "--scene table --out a.pcd --turn 181", "--scene table --list"}) {
     EXPECT_EQ(simulate(arguments), 2) << arguments;
     EXPECT_FALSE(content("stderr").empty()) << arguments;
   }

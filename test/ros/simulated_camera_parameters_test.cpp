@@ -35,9 +35,11 @@ TEST(SimulatedCameraParameters, DefaultsAreThoseOfTheYamlFile)
 {
   const YAML::Node file = YAML::LoadFile(GRASP_AFFORDANCES_SOURCE_DIR "/config/simulated_camera.yaml");
   const SimulatedCameraParameters defaults;
-  EXPECT_EQ(file.size(), 9U);
+  EXPECT_EQ(file.size(), 11U);
   EXPECT_EQ(file["scene"].as<std::string>(), defaults.scene);
   EXPECT_EQ(file["seed"].as<std::uint64_t>(), defaults.seed);
+  EXPECT_EQ(file["noise_seed"].as<std::uint64_t>(), defaults.noise_seed);
+  EXPECT_EQ(file["turn_deg"].as<double>(), defaults.turn_deg);
   EXPECT_EQ(file["rate"].as<double>(), defaults.rate);
   EXPECT_EQ(file["motion"].as<std::string>(), defaults.motion);
   EXPECT_EQ(file["amplitude_deg"].as<double>(), defaults.amplitude_deg);
@@ -52,6 +54,8 @@ TEST(SimulatedCameraParameters, EveryOneIsRead)
   XmlRpcValue parameters;
   parameters["scene"] = "empty_table";
   parameters["seed"] = 7;
+  parameters["noise_seed"] = 1000;
+  parameters["turn_deg"] = -90;
   parameters["rate"] = 15;
   parameters["motion"] = "orbit";
   parameters["amplitude_deg"] = 2.5;
@@ -62,6 +66,8 @@ TEST(SimulatedCameraParameters, EveryOneIsRead)
   const SimulatedCameraParameters read = simulatedCameraParameters(parameters);
   EXPECT_EQ(read.scene, "empty_table");
   EXPECT_EQ(read.seed, 7U);
+  EXPECT_EQ(read.noise_seed, 1000U);
+  EXPECT_EQ(read.turn_deg, -90.0);
   EXPECT_EQ(read.rate, 15.0);
   EXPECT_EQ(read.motion, "orbit");
   EXPECT_EQ(read.amplitude_deg, 2.5);
@@ -86,6 +92,8 @@ TEST(SimulatedCameraParameters, RefusesWhatIsNotAllowed)
   EXPECT_EQ(refusal("motion", "shaky"), "parameter ~motion is the string 'shaky'; it must be one of still orbit");
   for (const auto& [name, value] : {std::pair<const char*, XmlRpcValue>{"scene", 3},
                                     {"seed", -1},
+                                    {"noise_seed", -1},
+                                    {"turn_deg", 181.0},
                                     {"rate", 0.0},
                                     {"rate", 1e3},
                                     {"motion", true},

@@ -136,6 +136,16 @@ class SimulatedCamera(unittest.TestCase):
             else:
                 self.assertEqual(*places)
 
+    def test_turned_cameras_see_one_world_from_around(self):
+        places = []
+        for name, turn in (('ahead_of_it', 0), ('aside', 120)):
+            with camera(name, '_scene:=empty_table', '_turn_deg:=%d' % turn, '_noise_seed:=%d' % turn):
+                self.transform('world', name + '_depth_optical_frame')  # until we hear of frames
+                clouds = Listener(name + '/depth/points', PointCloud2)
+                places.append(self.place_above_table(name, clouds.wait()))
+                clouds.close()
+        self.assertGreater(math.dist(*places), 0.5)
+
     def test_frames_rendered_ahead_come_again_and_again_and_lie_where_the_frames_say(self):
         with camera('ahead', '_scene:=empty_table', '_motion:=orbit', '_amplitude_deg:=10', '_frames_ahead:=3',
                     '_rate:=10'):

@@ -79,5 +79,19 @@ TEST(CameraOrbit, CirclesAboutAPointInTheVoidWhereNothingIsLookedAt)
   EXPECT_NEAR((orbit.pose(2.0) * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitZ()).norm(), 0.0, 1e-12);
 }
 
+TEST(ViewFromAside, TurnsTheCameraAboutTheVerticalThroughThePointLookedAt)
+{
+  const View view = viewOfWall();
+  const View aside = viewFromAside(view, 1.2);
+  const Eigen::Vector3d in_camera(0.0, 0.0, kDistance);
+  EXPECT_NEAR((aside.T_scene_camera * in_camera - view.T_scene_camera * in_camera).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(aside.T_scene_camera.translation().z(), view.T_scene_camera.translation().z(), 1e-12);
+  const Eigen::AngleAxisd turn(
+      Eigen::Matrix3d(aside.T_scene_camera.linear() * view.T_scene_camera.linear().transpose()));
+  EXPECT_NEAR(turn.angle(), 1.2, 1e-12);
+  EXPECT_NEAR((turn.axis() - Eigen::Vector3d::UnitZ()).norm(), 0.0, 1e-12);
+  EXPECT_EQ(aside.scene.parts().size(), view.scene.parts().size());
+}
+
 }  // namespace
 }  // namespace grasp_affordances
