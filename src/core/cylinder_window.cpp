@@ -66,6 +66,9 @@ PixelWindow boundingWindow(const RangeImage& image, const CylinderPiece& piece)
   const Cloud& cloud = image.cloud();
   const PinholeIntrinsics& camera = image.intrinsics();
   const Interval depth = depths(piece);
+  if (depth.high <= 0.0) {
+    return {0, 0, 0, 0};
+  }
   if (!(depth.low > 0.0)) {
     return {0, static_cast<int>(cloud.width), 0, static_cast<int>(cloud.height)};
   }

@@ -4,7 +4,9 @@
 #include "grasp_affordances/sampling.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace grasp_affordances
 {
@@ -43,6 +45,9 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
     first_point += static_cast<std::uint32_t>(views[i].cloud->size());
   }
   others_.resize(size());
+  for (std::vector<OtherView>& others : others_) {
+    others.clear();
+  }
   if (size() > 1) {
     joinPoints();
     relateViews();
@@ -77,7 +82,6 @@ void PreparedViews::relateViews()
     }
   }
   for (std::size_t view = 0; view < size(); ++view) {
-    others_[view].clear();
     for (std::size_t other = 0; other < size(); ++other) {
       if (other != view) {
         const ShellSurroundings seen = surroundings(other, 0.0);
@@ -187,7 +191,7 @@ float PreparedViews::radiusOfNearest(const SamplePoint& sample, const Config& co
     }
   }
   joined.keepNearest(std::min(k, joined.size()));
-  return joined.radius;
+  return std::nextafter(joined.radius, std::numeric_limits<float>::infinity());  // its square holds the last of them
 }
 
 bool PreparedViews::occluded(const OcclusionConfig& config, const SphereView* spheres) const

@@ -5,6 +5,7 @@
 #include "simulation/tableware.h"
 #include "support/points.h"
 #include "support/scenes.h"
+#include "support/shells.h"
 
 #include <gtest/gtest.h>
 
@@ -38,15 +39,6 @@ void expectSound(const Localization& result, const std::string& what)
 std::uint32_t count(const Localization& result, Outcome outcome)
 {
   return result.counts[static_cast<std::size_t>(outcome)];
-}
-
-bool same(const Shell& a, const Shell& b)
-{
-  const auto bits = [](double x) { return std::isnan(x) ? -1.0 : x; };
-  return a.centroid == b.centroid && a.axis == b.axis && a.normal == b.normal && a.inner_radius == b.inner_radius &&
-         a.length == b.length && bits(a.curvature) == bits(b.curvature) &&
-         bits(a.observed_free) == bits(b.observed_free) && a.points_inside == b.points_inside &&
-         a.points_in_gap == b.points_in_gap && a.point_index == b.point_index;
 }
 
 struct Variation

@@ -1,0 +1,336 @@
+#include "grasp_affordances/localizer.h"
+#include "simulation/camera_orbit.h"
+#include "support/points.h"
+#include "support/scenes.h"
+#include "support/shells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace grasp_affordances::test
+{
+namespace
+{
+
+using Pose = Eigen::Isometry3d;
+
+std::uint32_t count(const Localization& result, Outcome outcome)
+{
+  return result.counts[static_cast<std::size_t>(outcome)];
+}
+
+Localization localizeViews(const Config& config, const std::vector<PosedCloud>& views)
+{
+  Localization result;
+  Localizer(config).localize(views, result);
+  return result;
+}
+
+Pose somePose()
+{
+  return Eigen::Translation3d(0.3, -0.2, 0.9) * Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, 2.0, -0.5).normalized());
+}
+
+/// A cloud as it is in another frame.
+Cloud moved(const Cloud& cloud, const Pose& T)
+{
+  Cloud result = cloud;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f p = (T * cloud.point(i).cast<double>()).cast<float>();
+    result.set(i, p.x(), p.y(), p.z());
+  }
+  result.sensor_origin = (T * cloud.sensor_origin.cast<double>()).cast<float>();
+  return result;
+}
+
+/// A scene as several cameras see it, which are turned about its vertical by so many degrees; noise differs.
+struct SeenScene
+{
+  SeenScene(const View& view, const std::vector<double>& turns, const XtionModel& model = XtionModel())
+  {
+    for (const double turn : turns) {
+      const View turned = viewFromAside(view, turn * M_PI / 180.0);
+      frames.push_back(Xtion(model).capture(turned.scene, turned.T_scene_camera, 1 + frames.size()));
+      T_scene_camera.push_back(turned.T_scene_camera);
+    }
+  }
+
+  /// The first `count` views in the frame of the scene.
+  std::vector<PosedCloud> views(std::size_t count) const
+  {
+    std::vector<PosedCloud> result;
+    for (std::size_t i = 0; i < count; ++i) {
+      result.push_back({&frames[i].cloud, T_scene_camera[i]});
+    }
+    return result;
+  }
+
+  std::vector<Frame> frames;
+  std::vector<Pose> T_scene_camera;
+};
+
+TEST(SeveralViews, OneViewIsTheCloudAloneBroughtToTheCommonFrame)
+{
+  const Cloud cloud = captureScene("table", 1).cloud;
+  const Config config;
+  Localizer localizer(config);
+  const Localization alone = localizer.localize(cloud);
+  ASSERT_GT(alone.shells.size(), 100U);
+  EXPECT_TRUE(std::isnan(alone.view_disagreement));
+
+  const Pose T = somePose();
+  const Localization posed = localizeViews(config, {{&cloud, T}});
+  EXPECT_EQ(posed.counts, alone.counts);
+  ASSERT_EQ(posed.shells.size(), alone.shells.size());
+  for (std::size_t i = 0; i < alone.shells.size(); ++i) {
+    const Shell &shell = posed.shells[i], &expected = alone.shells[i];
+    EXPECT_LT((shell.centroid - T * expected.centroid).norm(), 1e-12);
+    EXPECT_LT(lineAngle(shell.axis, T.linear() * expected.axis), 1e-12);
+    EXPECT_GT(shell.axis.maxCoeff(), -shell.axis.minCoeff()) << "largest component positive";
+    EXPECT_LT((shell.normal - T.linear() * expected.normal).norm(), 1e-12);
+    EXPECT_EQ(shell.inner_radius, expected.inner_radius);
+    EXPECT_EQ(shell.point_index, expected.point_index);
+  }
+}
+
+TEST(SeveralViews, LeaveNothingBehindForTheNextCloud)
+{
+  const SeenScene scene(makeScene("table", 1), {0.0, 90.0});
+  Config config;
+  config.sampling.samples = 500;
+  Localizer localizer(config);
+  const Localization before = localizer.localize(scene.frames[0].cloud);
+  Localization both, after;
+  localizer.localize(scene.views(2), both);
+  localizer.localize(scene.frames[0].cloud, after);
+  EXPECT_NE(both.counts, before.counts);
+  EXPECT_EQ(after.counts, before.counts);
+  ASSERT_EQ(after.shells.size(), before.shells.size());
+  for (std::size_t i = 0; i < after.shells.size(); ++i) {
+    EXPECT_TRUE(same(after.shells[i], before.shells[i])) << i;
+  }
+}
+
+TEST(SeveralViews, GiveTheSameWithAnyNumberOfThreads)
+{
+  const SeenScene scene(makeScene("table", 1), {0.0, 60.0, -60.0});
+  Config config;
+  config.sampling.samples = 1000;
+  config.threads = 1;
+  const Localization reference = localizeViews(config, scene.views(3));
+  ASSERT_GT(reference.shells.size(), 10U);
+  for (const int threads : {2, 5}) {
+    config.threads = threads;
+    const Localization result = localizeViews(config, scene.views(3));
+    ASSERT_EQ(result.counts, reference.counts) << threads;
+    for (std::size_t i = 0; i < result.shells.size(); ++i) {
+      EXPECT_TRUE(same(result.shells[i], reference.shells[i])) << threads << " threads, shell " << i;
+    }
+  }
+}
+
+TEST(SeveralViews, SampleAllCloudsAndCountTheirPointsOneAfterTheOther)
+{
+  const SeenScene scene(makeScene("table", 1), {0.0, 180.0});
+  const Localization result = localizeViews(Config(), scene.views(2));
+  const std::size_t first = scene.frames[0].cloud.size();
+  std::size_t of_first = 0;
+  for (const Shell& shell : result.shells) {
+    const std::size_t view = shell.point_index < first ? 0 : 1;
+    of_first += view == 0 ? 1 : 0;
+    const Cloud& cloud = scene.frames[view].cloud;
+    const Eigen::Vector3d sampled =
+        scene.T_scene_camera[view] * cloud.point(shell.point_index - view * first).cast<double>();
+    EXPECT_LT((sampled - shell.centroid).norm(), 0.1);
+    EXPECT_GT(shell.normal.dot(scene.T_scene_camera[view].translation() - shell.centroid), 0.0)
+        << "the normal points to the sensor that saw the sample";
+  }
+  EXPECT_GT(of_first, 20U);
+  EXPECT_GT(result.shells.size() - of_first, 20U);
+}
+
+double quantile(std::vector<double> values, double share)
+{
+  std::sort(values.begin(), values.end());
+  return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size())));
+}
+
+class EverySplit : public testing::TestWithParam<std::tuple<Estimator, NeighborhoodKind>>
+{
+};
+
+/// A cloud without pixels, cut at random into three, each of which is given in a frame of its own: the union is the
+/// cloud, up to rounding.
+TEST_P(EverySplit, IsTheWholeCloud)
+{
+  Random random(7);
+  Points points = cylinderPoints(0.02, M_PI, 0.15, 6000, random, 0.0003);
+  const Points bar = cylinderPoints(0.012, M_PI, 0.15, 6000, random, 0.0003);
+  for (const Eigen::Vector3d& p : bar) {
+    points.emplace_back(p.z() + 0.02, p.y(), p.x() + 0.14);
+  }
+  for (Eigen::Vector3d& p : points) {
+    p += Eigen::Vector3d(0.0, 0.6, 0.0);
+  }
+  std::vector<Points> parts(3);
+  for (const Eigen::Vector3d& p : points) {
+    parts[static_cast<std::size_t>(random.uniform(0.0, 3.0))].push_back(p);
+  }
+  Points in_turn;
+  std::vector<Cloud> clouds;
+  std::vector<PosedCloud> views;
+  const std::vector<Pose> poses = {Pose::Identity(), somePose(),
+                                   somePose().inverse() * Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitY())};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    in_turn.insert(in_turn.end(), parts[i].begin(), parts[i].end());
+    clouds.push_back(moved(cloudOf(parts[i]), poses[i].inverse()));
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    views.push_back({&clouds[i], poses[i]});
+  }
+
+  Config config;
+  std::tie(config.estimation.estimator, config.neighborhood.kind) = GetParam();
+  config.sampling.samples = 300;
+  const Localization whole = Localizer(config).localize(cloudOf(in_turn));
+  const Localization joined = localizeViews(config, views);
+  ASSERT_GT(whole.shells.size(), 50U);
+  EXPECT_EQ(joined.points, whole.points);
+
+  std::vector<double> angles;
+  for (const Shell& shell : whole.shells) {
+    const auto twin = std::find_if(joined.shells.begin(), joined.shells.end(),
+                                   [&](const Shell& other) { return other.point_index == shell.point_index; });
+    if (twin != joined.shells.end()) {
+      angles.push_back(lineAngle(twin->axis, shell.axis));
+    }
+  }
+  EXPECT_GE(angles.size(), 0.9 * static_cast<double>(whole.shells.size()));
+  // Exactly the same points decide on the axis of PCA. Curvature is taken at others of them, normals are those of each
+  // cloud for itself, and where points stand for a nearly round patch a single one may turn the axis.
+  const bool same_points =
+      config.estimation.estimator == Estimator::pca && config.neighborhood.kind == NeighborhoodKind::radius;
+  EXPECT_LT(quantile(angles, 0.5), same_points ? 1e-6 : 0.01);
+  EXPECT_LT(quantile(angles, 0.8), same_points ? 1e-6 : 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Variations, EverySplit,
+                         testing::Combine(testing::Values(Estimator::taubin, Estimator::pca, Estimator::normals),
+                                          testing::Values(NeighborhoodKind::radius, NeighborhoodKind::knn)));
+
+/// A post between two walls, and a board that hides a part of it from the camera.
+View post(bool board)
+{
+  View view;
+  view.scene.beginObject("walls");
+  view.scene.add(Box{{0.1, 4.0, 4.0}}, Pose(Eigen::Translation3d(1.5, 0.0, 0.15)));
+  view.scene.add(Box{{0.1, 4.0, 4.0}}, Pose(Eigen::Translation3d(-1.5, 0.0, 0.15)));
+  view.scene.beginObject("post");
+  view.scene.add(Cylinder{0.02, 0.3}, Pose(Eigen::Translation3d(0.0, 0.0, 0.15)));
+  if (board) {
+    view.scene.beginObject("board");
+    view.scene.add(Box{{0.01, 0.4, 0.2}}, Pose(Eigen::Translation3d(-0.2, 0.2, 0.1)));
+  }
+  // From -x, 1 m away, level.
+  view.T_scene_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  view.T_scene_camera.translation() << -1.0, 0.0, 0.15;
+  return view;
+}
+
+Config aroundPost()
+{
+  Config config;
+  config.workspace.min_x = config.workspace.min_y = -0.03;
+  config.workspace.max_x = config.workspace.max_y = 0.03;
+  return config;
+}
+
+TEST(SeveralViews, KeepANeighborhoodThatOneOfThemSeesUnoccluded)
+{
+  const SeenScene around(post(true), {0.0, 180.0}), twice(post(true), {0.0, 0.0});
+  const Localization one = localizeViews(aroundPost(), around.views(1));
+  ASSERT_GT(count(one, Outcome::occluded), 300U) << "the board hides a part of what is sampled";
+  EXPECT_LT(10 * count(localizeViews(aroundPost(), around.views(2)), Outcome::occluded), count(one, Outcome::occluded));
+  EXPECT_GT(2 * count(localizeViews(aroundPost(), twice.views(2)), Outcome::occluded), count(one, Outcome::occluded))
+      << "what both see occluded is rejected";
+}
+
+TEST(SeveralViews, SeeFreeSpaceFromAnySide)
+{
+  const SeenScene scene(post(false), {0.0, 180.0});
+  const auto largestFree = [](const Localization& result) {
+    double largest = 0.0;
+    for (const Shell& shell : result.shells) {
+      largest = std::max(largest, shell.observed_free);
+    }
+    return largest;
+  };
+  EXPECT_LT(largestFree(localizeViews(aroundPost(), scene.views(1))), 0.8) << "an object shadows the gap behind itself";
+  EXPECT_GT(largestFree(localizeViews(aroundPost(), scene.views(2))), 0.95);
+}
+
+TEST(SeveralViews, PlaceAnAxisBetterFromBothSides)
+{
+  const SeenScene scene(post(false), {0.0, 180.0});
+  const auto distances = [](const Localization& result) {
+    std::vector<double> values;
+    for (const Shell& shell : result.shells) {
+      values.push_back(shell.centroid.head<2>().norm());
+    }
+    return values;
+  };
+  const std::vector<double> one = distances(localizeViews(aroundPost(), scene.views(1)));
+  const std::vector<double> two = distances(localizeViews(aroundPost(), scene.views(2)));
+  EXPECT_GT(two.size(), one.size() / 2) << "points seen from behind are no concave surface";
+  EXPECT_LT(quantile(two, 0.5), 0.5 * quantile(one, 0.5));
+  EXPECT_LT(quantile(two, 0.95), 0.002);
+}
+
+TEST(SeveralViews, CountWhatAnotherSawInTheGap)
+{
+  // A board close behind the post, which only the second camera sees.
+  View view = post(false);
+  view.scene.beginObject("back");
+  view.scene.add(Box{{0.01, 0.035, 0.3}}, Pose(Eigen::Translation3d(0.029, 0.0, 0.15)));
+  Config config = aroundPost();
+  config.shell.continue_surfaces = false;
+  const SeenScene scene(view, {0.0, 90.0});
+  EXPECT_GT(localizeViews(config, scene.views(1)).shells.size(), 100U);
+  EXPECT_LT(localizeViews(config, scene.views(2)).shells.size(), 10U);
+}
+
+TEST(SeveralViews, GoOnWithoutThoseThatMeasuredNothing)
+{
+  const Cloud cloud = captureScene("table", 1).cloud;
+  Cloud nothing;
+  nothing.reset(640, 480);
+  Config config;
+  config.sampling.samples = 300;
+  const Localization alone = Localizer(config).localize(cloud);
+  for (const bool nothing_first : {false, true}) {
+    std::vector<PosedCloud> views = {{&cloud, Pose::Identity()}, {&nothing, somePose()}};
+    if (nothing_first) {
+      std::swap(views[0], views[1]);
+    }
+    const Localization result = localizeViews(config, views);
+    EXPECT_EQ(result.counts, alone.counts);
+    ASSERT_EQ(result.warnings.size(), 1U);
+    EXPECT_NE(result.warnings[0].find(nothing_first ? "view 1" : "view 2"), std::string::npos) << result.warnings[0];
+    ASSERT_EQ(result.shells.size(), alone.shells.size());
+    for (std::size_t i = 0; i < result.shells.size(); ++i) {
+      EXPECT_EQ(result.shells[i].point_index, alone.shells[i].point_index + (nothing_first ? 640 * 480 : 0));
+    }
+  }
+  const Localization none = localizeViews(config, {{&nothing, Pose::Identity()}, {&nothing, somePose()}});
+  EXPECT_EQ(none.sampled, 0U);
+  EXPECT_EQ(none.warnings.size(), 2U);
+  EXPECT_EQ(localizeViews(config, {}).sampled, 0U);
+}
+
+}  // namespace
+}  // namespace grasp_affordances::test
