@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstddef>
@@ -29,6 +29,12 @@ struct Shell
   std::uint32_t point_index = 0;    ///< row-major index of the sampled point in the cloud; of several clouds, one
                                     ///< after the other
 };
+
+/// The one of an axis's two directions that stands for it: its component of largest magnitude is positive.
+Eigen::Vector3d withLargestComponentPositive(const Eigen::Vector3d& axis);
+
+/// The shell in the frame that T leads to.
+Shell transformed(Shell shell, const Eigen::Isometry3d& T);
 
 /// Where a sample ended. Every sample ends in exactly one of these.
 enum class Outcome : std::uint8_t

@@ -3,6 +3,21 @@
 namespace grasp_affordances
 {
 
+Eigen::Vector3d withLargestComponentPositive(const Eigen::Vector3d& axis)
+{
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return axis[largest] < 0.0 ? Eigen::Vector3d(-axis) : axis;
+}
+
+Shell transformed(Shell shell, const Eigen::Isometry3d& T)
+{
+  shell.centroid = T * shell.centroid;
+  shell.axis = withLargestComponentPositive(T.linear() * shell.axis);
+  shell.normal = T.linear() * shell.normal;
+  return shell;
+}
+
 const char* outcomeName(Outcome outcome)
 {
   static constexpr std::array<const char*, kOutcomes> kNames{

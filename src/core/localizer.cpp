@@ -80,6 +80,7 @@ void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localizati
   result.sampled = static_cast<std::uint32_t>(count);
   result.threads = static_cast<std::uint32_t>(team.size());
   result.warnings = views.warnings;
+  result.view_disagreement = views.disagreement;
   result.counts.fill(0);
   result.shells.clear();
   for (std::size_t i = 0; i < count; ++i) {

@@ -31,6 +31,7 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
   views_.clear();
   warnings.clear();
   measured = 0;
+  disagreement = std::numeric_limits<double>::quiet_NaN();
   std::uint32_t first_point = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     PreparedCloud& cloud = clouds_[i];
@@ -39,7 +40,7 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
       warnings.push_back(views.size() == 1 ? warning : "view " + std::to_string(i + 1) + ": " + warning);
     }
     if (cloud.search != nullptr) {
-      views_.push_back({&cloud, views[i].T_common_cloud, first_point});
+      views_.push_back({i + 1, &cloud, views[i].T_common_cloud, first_point});
     }
     measured += static_cast<std::uint32_t>(cloud.measured.size());
     first_point += static_cast<std::uint32_t>(views[i].cloud->size());
@@ -51,6 +52,7 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
   if (size() > 1) {
     joinPoints();
     relateViews();
+    compareViews(team);
     uncoverHiddenSurfaces(config.hand.finger_thickness, team);
   }
   if (!views_.empty() && !hasSamples()) {
@@ -87,6 +89,34 @@ void PreparedViews::relateViews()
         const ShellSurroundings seen = surroundings(other, 0.0);
         others_[view].push_back({&seen.cloud, seen.hidden, seen.image, transform(other, view)});
       }
+    }
+  }
+}
+
+void PreparedViews::compareViews(ThreadTeam& team)
+{
+  comparisons_.resize(size() * (size() - 1) / 2);
+  auto comparison = comparisons_.begin();
+  for (std::size_t first = 0; first < size(); ++first) {
+    for (std::size_t second = first + 1; second < size(); ++second, ++comparison) {
+      comparison->first = first;
+      comparison->second = second;
+    }
+  }
+  team.forEach(comparisons_.size(), [this](std::size_t i, std::size_t) {
+    auto& [first, second, distance, agreement] = comparisons_[i];
+    const std::optional<RangeImage>&of_first = views_[first].cloud->image, &of_second = views_[second].cloud->image;
+    distance = of_first && of_second ? agreement.disagreement(*of_first, *of_second, transform(first, second))
+                                     : std::numeric_limits<double>::quiet_NaN();
+  });
+  for (const Comparison& compared : comparisons_) {
+    disagreement = std::fmax(disagreement, compared.disagreement);
+    constexpr double kMisplaced = 0.015;  // m; with exact poses noise accounts for less than a third of it
+    if (compared.disagreement > kMisplaced) {
+      warnings.push_back("views " + std::to_string(views_[compared.first].number) + " and " +
+                         std::to_string(views_[compared.second].number) + " place the same surfaces " +
+                         std::to_string(std::lround(1000.0 * compared.disagreement)) +
+                         " mm apart: their poses are wrong");
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "core/prepared_cloud.h"
 #include "core/sphere_view.h"
 #include "core/thread_team.h"
+#include "core/view_agreement.h"
 
 #include <Eigen/Geometry>
 
@@ -77,14 +78,24 @@ public:
   ShellSurroundings surroundings(std::size_t view, double spacing) const;
 
   std::uint32_t measured = 0;  ///< points of all clouds
+  double disagreement;         ///< m, see Localization::view_disagreement
   std::vector<std::string> warnings;
 
 private:
   struct View
   {
+    std::size_t number;  // among the clouds that were given, from 1
     PreparedCloud* cloud;
     Eigen::Isometry3d T_common_cloud;
     std::uint32_t first_point;
+  };
+
+  /// Two views, and by how much they disagree (m).
+  struct Comparison
+  {
+    std::size_t first, second;
+    double disagreement;
+    ViewAgreement agreement;
   };
 
   const std::vector<std::uint32_t>& samplePoints() const { return size() == 1 ? views_[0].cloud->points() : points_; }
@@ -96,6 +107,7 @@ private:
   void visitParts(const SamplePoint& sample, const SphereView* spheres, Visitor&& visit) const;
   void joinPoints();
   void relateViews();
+  void compareViews(ThreadTeam& team);
   void uncoverHiddenSurfaces(double margin, ThreadTeam& team);
   bool sawThrough(std::size_t view, const Eigen::Vector3d& point, double margin) const;
   void estimateNormals(const Config& config, ThreadTeam& team);
@@ -105,8 +117,9 @@ private:
   std::vector<Eigen::Isometry3d> T_;              // between the views' frames: [to * size + from]
   std::vector<std::vector<OtherView>> others_;    // by view
   std::vector<std::uint32_t> points_, screened_;  // of several views, those that samples are drawn from
-  std::vector<Neighborhood> neighborhoods_;       // two per thread
-  std::vector<SphereView> spheres_;               // of each view, per thread
+  std::vector<Comparison> comparisons_;
+  std::vector<Neighborhood> neighborhoods_;  // two per thread
+  std::vector<SphereView> spheres_;          // of each view, per thread
 };
 
 }  // namespace grasp_affordances

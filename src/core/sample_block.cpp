@@ -23,13 +23,6 @@ namespace
 constexpr std::optional<Outcome> kGoesOn;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-Eigen::Vector3d withLargestComponentPositive(const Eigen::Vector3d& axis)
-{
-  Eigen::Index largest = 0;
-  axis.cwiseAbs().maxCoeff(&largest);
-  return axis[largest] < 0.0 ? Eigen::Vector3d(-axis) : axis;
-}
-
 /// The part of the direction to the sensor that is at right angles to the axis.
 Eigen::Vector3d normalTowards(const Eigen::Vector3d& sensor, const Eigen::Vector3d& centroid,
                               const Eigen::Vector3d& axis)
@@ -47,14 +40,6 @@ Eigen::Vector3d meanOfFirst(std::size_t count, const Neighborhood& neighborhood)
     sum += neighborhood.point(i).cast<double>();
   }
   return sum / static_cast<double>(count);
-}
-
-Shell transformed(Shell shell, const Eigen::Isometry3d& T)
-{
-  shell.centroid = T * shell.centroid;
-  shell.axis = withLargestComponentPositive(T.linear() * shell.axis);
-  shell.normal = T.linear() * shell.normal;
-  return shell;
 }
 
 std::optional<Outcome> enoughPoints(std::size_t points, const Config& config)

@@ -65,7 +65,9 @@ LabelledCloud load(const Recording& recording)
   LabelledCloud labelled;
   labelled.capture_radius = recording.capture_radius;
   try {
-    const pcl::PCLPointCloud2 message = readPcd(recording.path, &labelled.cloud.sensor_origin);
+    SensorPose viewpoint;
+    const pcl::PCLPointCloud2 message = readPcd(recording.path, &viewpoint);
+    labelled.cloud.sensor_origin = viewpoint.position.cast<float>();
     cloudFromPointCloud2(message, labelled.cloud);
     labelled.labels = objectLabels(message);
   } catch (const std::exception& error) {

@@ -5,8 +5,10 @@
 #include <pcl/io/pcd_io.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -41,7 +43,7 @@ struct Header
   std::uint64_t values_per_point = 0;  // numbers in a line of an ascii file
   std::uint64_t width = 0;
   std::uint64_t height = 0;
-  Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();
+  SensorPose viewpoint;
   Encoding encoding = Encoding::ascii;
   std::size_t size = 0;  // bytes of the header itself
   std::uint64_t points() const { return width * height; }
@@ -217,23 +219,19 @@ void parseExtent(const Entries& entries, Header& header)
   }
 }
 
-Eigen::Vector3f parseViewpoint(const Words& words)
+SensorPose parseViewpoint(const Words& words)
 {
-  Eigen::Vector3f origin = Eigen::Vector3f::Zero();
-  bool valid = words.size() == 7;
-  for (std::size_t i = 0; valid && i < words.size(); ++i) {
+  std::array<double, 7> values{};
+  bool valid = words.size() == values.size();
+  for (std::size_t i = 0; valid && i < values.size(); ++i) {
     std::istringstream stream(words[i]);
     stream.imbue(std::locale::classic());
-    float value = 0.0F;
-    valid = (stream >> value) && stream.eof();
-    if (i < 3) {
-      origin[static_cast<Eigen::Index>(i)] = value;
-    }
+    valid = (stream >> values[i]) && stream.eof();
   }
   if (!valid) {
     throw CloudError("PCD header: VIEWPOINT needs seven finite numbers (tx ty tz qw qx qy qz)");
   }
-  return origin;
+  return {{values[0], values[1], values[2]}, Eigen::Quaterniond(values[3], values[4], values[5], values[6])};
 }
 
 Encoding parseEncoding(const Words& words)
@@ -255,7 +253,7 @@ Header readHeader(std::istream& file)
   parseFields(entries, header);
   parseExtent(entries, header);
   if (entries.has("VIEWPOINT")) {
-    header.sensor_origin = parseViewpoint(entries.words("VIEWPOINT"));
+    header.viewpoint = parseViewpoint(entries.words("VIEWPOINT"));
   }
   return header;
 }
@@ -399,7 +397,16 @@ pcl::PCLPointCloud2 readPoints(const Header& header, std::istream& file, std::ui
 
 }  // namespace
 
-pcl::PCLPointCloud2 readPcd(const std::string& path, Eigen::Vector3f* sensor_origin)
+std::optional<Eigen::Isometry3d> SensorPose::transform() const
+{
+  constexpr double kMaxDeviation = 1e-3;
+  if (!position.allFinite() || !(std::abs(orientation.norm() - 1.0) <= kMaxDeviation)) {
+    return std::nullopt;
+  }
+  return Eigen::Translation3d(position) * orientation.normalized();
+}
+
+pcl::PCLPointCloud2 readPcd(const std::string& path, SensorPose* viewpoint)
 {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -424,8 +431,8 @@ pcl::PCLPointCloud2 readPcd(const std::string& path, Eigen::Vector3f* sensor_ori
   pcl::PCLPointCloud2 cloud = readPoints(header, file, file_size - header.size);
   const auto is_padding = [](const pcl::PCLPointField& field) { return field.name == kPadding; };
   cloud.fields.erase(std::remove_if(cloud.fields.begin(), cloud.fields.end(), is_padding), cloud.fields.end());
-  if (sensor_origin != nullptr) {
-    *sensor_origin = header.sensor_origin;
+  if (viewpoint != nullptr) {
+    *viewpoint = header.viewpoint;
   }
   return cloud;
 }
@@ -433,7 +440,9 @@ pcl::PCLPointCloud2 readPcd(const std::string& path, Eigen::Vector3f* sensor_ori
 Cloud readPcdCloud(const std::string& path)
 {
   Cloud cloud;
-  cloudFromPointCloud2(readPcd(path, &cloud.sensor_origin), cloud);
+  SensorPose viewpoint;
+  cloudFromPointCloud2(readPcd(path, &viewpoint), cloud);
+  cloud.sensor_origin = viewpoint.position.cast<float>();
   return cloud;
 }
 

@@ -118,7 +118,7 @@ cairo_status_t writeTo(void* file, const unsigned char* data, unsigned int size)
 class Picture::Canvas
 {
 public:
-  Canvas(const Cloud& cloud, const std::vector<Color>& colors) : camera_(pictureCamera(cloud))
+  Canvas(const Cloud& cloud, const std::vector<Color>& colors, const PictureCamera& camera) : camera_(camera)
   {
     const int longer = static_cast<int>(std::max(camera_.width, camera_.height));
     scale_ = std::max(1, (kLongSide + longer / 2) / longer);
@@ -231,10 +231,13 @@ private:
   Context context_;
 };
 
-Picture::Picture(const Cloud& cloud, const std::vector<Color>& colors)
-    : canvas_(std::make_unique<Canvas>(cloud, colors))
+Picture::Picture(const Cloud& cloud, const std::vector<Color>& colors) : Picture(cloud, colors, pictureCamera(cloud)) {}
+
+Picture::Picture(const Cloud& cloud, const std::vector<Color>& colors, const PictureCamera& camera)
+    : canvas_(std::make_unique<Canvas>(cloud, colors, camera))
 {
 }
+
 Picture::~Picture() = default;
 Picture::Picture(Picture&&) noexcept = default;
 Picture& Picture::operator=(Picture&&) noexcept = default;

@@ -31,6 +31,9 @@ class Picture
 public:
   /// Draws the cloud, shaded. @param colors  of the points; empty: grey
   explicit Picture(const Cloud& cloud, const std::vector<Color>& colors = {});
+
+  /// The same as another camera sees it.
+  Picture(const Cloud& cloud, const std::vector<Color>& colors, const PictureCamera& camera);
   ~Picture();
   Picture(Picture&&) noexcept;
   Picture& operator=(Picture&&) noexcept;

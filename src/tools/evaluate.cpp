@@ -53,9 +53,12 @@ void measureRuntime(const EvaluateOptions& options)
   constexpr std::uint64_t kSeed = 101;
   constexpr std::size_t kCalls = 10;  // as in the paper's figure 7
   const std::vector<int> samples{1000, 2000, 3000, 4000, 5000, 6000, 7000, 8000, 9000, 10000};
-  std::vector<Config> variations = options.variations;
-  for (Config& config : variations) {
-    config.threads = static_cast<int>(options.threads);
+  std::vector<Config> variations;
+  for (const auto& [config, views] : options.variations) {
+    if (views == 1) {
+      variations.push_back(config);
+      variations.back().threads = static_cast<int>(options.threads);
+    }
   }
   Progress progress("runtime", variations.size() * samples.size());
   const LabelledCloud labelled = renderedFrame("", "cleaning2", kSeed, GraspDefinition()).load();

@@ -3,6 +3,7 @@
 #include "grasp_affordances/parameters.h"
 #include "simulation/hard_scenes.h"
 #include "simulation/paper_scenes.h"
+#include "simulation/placement.h"
 #include "simulation/scene_library.h"
 
 #include <CLI/CLI.hpp>
@@ -26,6 +27,7 @@ struct Arguments
   std::string labels, config_file, out = "evaluation";
   std::optional<int> samples;
   std::optional<double> capture_radius;
+  std::vector<double> turns{0.0};
   std::size_t runs = 1, threads = 0, pictures = 10;
   bool runtime = false;
 };
@@ -97,9 +99,9 @@ std::vector<std::uint64_t> parseSeeds(const Strings& words)
   return seeds;
 }
 
-std::vector<Config> makeVariations(const Arguments& arguments)
+std::vector<Variation> makeVariations(const Arguments& arguments)
 {
-  std::vector<Config> variations;
+  std::vector<Variation> variations;
   for (const std::string& preset : arguments.presets) {
     Config config = presetConfig(preset);
     if (!arguments.config_file.empty()) {
@@ -114,7 +116,9 @@ std::vector<Config> makeVariations(const Arguments& arguments)
     for (const std::string& estimator : arguments.estimators) {
       config.estimation.estimator = enumFromWord<Estimator>("--estimators", estimator);
       validate(config);
-      variations.push_back(config);
+      for (std::size_t views = 1; views <= arguments.turns.size(); ++views) {
+        variations.push_back({config, views});
+      }
     }
   }
   return variations;
@@ -124,20 +128,28 @@ EvaluateOptions makeOptions(const Arguments& arguments)
 {
   requireDistinct("--presets", arguments.presets);
   requireDistinct("--estimators", arguments.estimators);
+  requireDistinct("--turn", arguments.turns);
+  if (arguments.turns != Arguments().turns && !arguments.labels.empty()) {
+    throw std::invalid_argument("--turn: the camera of recorded clouds (--labels) cannot be turned");
+  }
   EvaluateOptions options;
   options.variations = makeVariations(arguments);
-  const HandGeometry& hand = options.variations.front().hand;
+  const HandGeometry& hand = options.variations.front().config.hand;
   GraspDefinition definition;
   definition.capture_radius = hand.capture_radius;
   definition.clearance = hand.finger_thickness;
   const bool only_recorded = arguments.scenes.empty() && !arguments.labels.empty();
   const Strings scenes = arguments.scenes.empty() ? Strings{"paper"} : arguments.scenes;
   const std::vector<NamedScene> paper = paperScenes();
+  std::vector<double> turns;
+  for (const double degrees : arguments.turns) {
+    turns.push_back(kDegree * degrees);
+  }
   for (const std::string& scene : only_recorded ? Strings{} : sceneNames(scenes)) {
     const bool is_paper =
         std::any_of(paper.begin(), paper.end(), [&](const NamedScene& named) { return named.name == scene; });
     for (const std::uint64_t seed : parseSeeds(arguments.seeds)) {
-      options.frames.push_back(renderedFrame(is_paper ? "paper" : "", scene, seed, definition));
+      options.frames.push_back(renderedFrame(is_paper ? "paper" : "", scene, seed, definition, turns));
     }
   }
   options.labels = arguments.labels;
@@ -160,6 +172,13 @@ void addOptions(CLI::App& app, Arguments& arguments)
   app.add_option("--seeds", arguments.seeds, "of scenes and noise: numbers and ranges (default 101:120)")
       ->type_name("A:B,..")
       ->delimiter(',');
+  app.add_option(
+         "--turn", arguments.turns,
+         "views of each scene: one for each of so many degrees by which the camera is turned about the vertical; "
+         "evaluates with the first view, the first two, and so on (default 0)")
+      ->type_name("DEG,..")
+      ->delimiter(',')
+      ->check(CLI::Range(-180.0, 180.0));
   app.add_option("--labels", arguments.labels, "evaluate recorded clouds, too: JSON file, with the clouds beside it")
       ->type_name("FILE");
   app.add_option("--runs", arguments.runs, "per frame; run r samples with the seed r (default 1)")

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "evaluation/labelled_cloud.h"
-#include "grasp_affordances/config.h"
+#include "evaluation/evaluation.h"
 
 #include <cstddef>
 #include <optional>
@@ -17,7 +16,7 @@ struct EvaluateOptions
   std::vector<EvaluationFrame> frames;   ///< rendered, not recorded
   std::string labels;                    ///< of the recorded clouds; empty: none
   std::optional<double> capture_radius;  ///< m, where it was given: for the recorded clouds, too
-  std::vector<Config> variations;        ///< validated
+  std::vector<Variation> variations;     ///< validated
   std::size_t runs = 1;
   std::size_t threads = 0;  ///< 0: one per core
   std::string out;          ///< folder

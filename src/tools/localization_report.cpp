@@ -33,6 +33,18 @@ Json timesJson(const StageTimes& times)
   return json;
 }
 
+Json viewJson(const ViewSource& view)
+{
+  const Eigen::Quaterniond rotation(view.T_common_cloud.linear());
+  Json json;
+  json["file"] = view.file;
+  json["points"] = view.points;
+  json["first_point_index"] = view.first_point_index;
+  json["translation"] = vectorJson(view.T_common_cloud.translation());
+  json["rotation"] = {rotation.x(), rotation.y(), rotation.z(), rotation.w()};
+  return json;
+}
+
 Json shellJson(const Shell& shell)
 {
   Json json;
@@ -60,12 +72,28 @@ void printVector(std::ostream& out, const Eigen::Vector3d& vector, int width, in
 
 }  // namespace
 
+std::string CloudSource::name() const
+{
+  std::string name = file;
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    name += " + " + views[i].file;
+  }
+  return name;
+}
+
 std::string toJson(const CloudSource& source, const Config& config, const Localization& localization)
 {
   Json json;
   json["file"] = source.file;
   json["frame_id"] = source.frame_id;
   json["stamp"] = source.stamp;
+  if (!source.views.empty()) {
+    json["views"] = Json::array();
+    for (const ViewSource& view : source.views) {
+      json["views"].push_back(viewJson(view));
+    }
+    json["view_disagreement"] = localization.view_disagreement;
+  }
   json["preset"] = config.preset;
   json["seed"] = config.sampling.seed;
   json["threads"] = localization.threads;
@@ -85,7 +113,7 @@ void printTable(std::ostream& out, const CloudSource& source, const Config& conf
   constexpr std::size_t kMostRows = 10;
   const auto& shells = localization.shells;
   std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << source.file << ": " << shells.size() << " shells from "
+  text << std::fixed << std::setprecision(1) << source.name() << ": " << shells.size() << " shells from "
        << localization.sampled << " samples of " << localization.points << " points in "
        << localization.milliseconds.total << " ms (preset " << config.preset << ", " << localization.threads
        << " threads)\n";

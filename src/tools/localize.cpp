@@ -6,6 +6,7 @@
 #include "rendering/picture.h"
 #include "tools/localization_report.h"
 #include "tools/localize_options.h"
+#include "tools/posed_view.h"
 
 #include <unistd.h>
 
@@ -50,22 +51,29 @@ public:
 
   ExitStatus run()
   {
+    if (!options_.views.empty()) {
+      attempt(options_.views.front().file, [this] { processViews(); });
+    }
     for (const std::string& file : options_.inputs) {
       ++input_;
-      try {
-        if (std::filesystem::path(file).extension() == ".bag") {
-          processBag(file);
-        } else {
-          processPcd(file);
-        }
-      } catch (const std::exception& error) {
-        fail(file, error.what());
-      }
+      const bool is_bag = std::filesystem::path(file).extension() == ".bag";
+      attempt(file, [&] { is_bag ? processBag(file) : processPcd(file); });
     }
     return status_;
   }
 
 private:
+  /// Reports what goes wrong with a file, and goes on.
+  template <class Task>
+  void attempt(const std::string& file, Task&& task)
+  {
+    try {
+      task();
+    } catch (const std::exception& error) {
+      fail(file, error.what());
+    }
+  }
+
   void fail(const std::string& file, const std::string& reason)
   {
     std::cerr << file << ": " << reason << "\n";
@@ -74,9 +82,38 @@ private:
 
   void processPcd(const std::string& file)
   {
-    const pcl::PCLPointCloud2 points = readPcd(file, &cloud_.sensor_origin);
+    SensorPose viewpoint;
+    const pcl::PCLPointCloud2 points = readPcd(file, &viewpoint);
+    cloud_.sensor_origin = viewpoint.position.cast<float>();
     const std::string position = std::to_string(input_) + "/" + std::to_string(options_.inputs.size());
     process(points, {file, "", 0.0}, options_.inputs.size() > 1 ? position : "");
+  }
+
+  void processViews()
+  {
+    std::vector<PosedView> views;
+    for (const ViewFile& option : options_.views) {
+      attempt(option.file, [&] { views.push_back(readPosedView(option.file, option.T_common_cloud)); });
+    }
+    if (views.size() < options_.views.size()) {
+      return;
+    }
+    CloudSource source{options_.views.front().file, "", 0.0};
+    std::vector<PosedCloud> posed;
+    std::size_t first_point_index = 0;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const auto& [cloud, colors, T_common_cloud] = views[i];
+      posed.push_back({&cloud, T_common_cloud});
+      source.views.push_back({options_.views[i].file, T_common_cloud, views[i].measuredPoints(), first_point_index});
+      first_point_index += cloud.size();
+    }
+    Localization localization;
+    localizer_.localize(posed, localization);
+    ++localized_;
+    report(source, localization, "");
+    if (!options_.picture.empty()) {
+      drawViews(views, source, localization);
+    }
   }
 
   void processBag(const std::string& file)
@@ -121,10 +158,10 @@ private:
       std::cout.flush();
     }
     for (const std::string& warning : localization.warnings) {
-      std::cerr << source.file << ": " << warning << "\n";
+      std::cerr << source.name() << ": " << warning << "\n";
     }
     if (localization.shells.empty() && localization.sampled > 0) {
-      std::cerr << source.file << ": " << explainNothing(localization) << "\n";
+      std::cerr << source.name() << ": " << explainNothing(localization) << "\n";
     }
     if (shows_progress_ && !position.empty()) {
       std::cerr << "[" << position << "] " << source.file << ": " << localization.shells.size() << " shells, "
@@ -135,8 +172,26 @@ private:
   void draw(const std::vector<Color>& colors, const CloudSource& source, const Localization& localization)
   {
     Picture picture(cloud_, colors);
+    finish(picture, source, localization);
+  }
+
+  /// What the first view's camera would see, had it seen what the others saw.
+  void drawViews(const std::vector<PosedView>& views, const CloudSource& source, const Localization& localization)
+  {
+    PictureCamera camera = pictureCamera(views.front().cloud);
+    camera.camera_from_cloud = camera.camera_from_cloud * views.front().T_common_cloud.inverse();
+    std::vector<Color> colors;
+    const Cloud cloud = cloudInCommonFrame(views, colors);
+    Picture picture(cloud, colors, camera);
+    finish(picture, source, localization);
+  }
+
+  void finish(Picture& picture, const CloudSource& source, const Localization& localization)
+  {
     drawShells(picture, localization.shells);
-    picture.drawCaption(std::filesystem::path(source.file).filename().string() + ":  " +
+    const std::string others =
+        source.views.size() > 1 ? " and " + std::to_string(source.views.size() - 1) + " more" : "";
+    picture.drawCaption(std::filesystem::path(source.file).filename().string() + others + ":  " +
                         std::to_string(localization.shells.size()) + " shells,  preset " + options_.config.preset +
                         ",  capture radius " + std::to_string(std::lround(1000 * options_.config.hand.capture_radius)) +
                         " mm");

@@ -1,12 +1,18 @@
 #include "tools/localize_options.h"
 
 #include "grasp_affordances/parameters.h"
+#include "io/pcd.h"
 
 #include <yaml-cpp/yaml.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
 #include <iostream>
+#include <iterator>
+#include <locale>
 #include <map>
+#include <sstream>
 
 namespace grasp_affordances
 {
@@ -82,6 +88,42 @@ Config makeConfig(const std::string& preset, const std::string& file, const Para
   return configFromYaml(values.yaml(), config);
 }
 
+/// x,y,z,qx,qy,qz,qw. Empty for anything else.
+std::optional<SensorPose> parsePose(const std::string& text)
+{
+  std::array<double, 7> values{};
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if ((i > 0 && stream.get() != ',') || !(stream >> values[i])) {
+      return std::nullopt;
+    }
+  }
+  if (stream.peek() != std::istringstream::traits_type::eof()) {
+    return std::nullopt;
+  }
+  return SensorPose{{values[0], values[1], values[2]}, Eigen::Quaterniond(values[6], values[3], values[4], values[5])};
+}
+
+/// FILE.pcd:x,y,z,qx,qy,qz,qw, or a file without a pose, the name of which may hold colons.
+ViewFile parseView(const std::string& text)
+{
+  const std::size_t colon = text.rfind(':');
+  const std::string behind = colon == std::string::npos ? "" : text.substr(colon + 1);
+  const auto pose = parsePose(behind);
+  if (!pose) {
+    if (behind.find(',') != std::string::npos) {
+      throw UsageError("--view " + text + ": the pose is not seven numbers x,y,z,qx,qy,qz,qw");
+    }
+    return {text, std::nullopt};
+  }
+  const auto transform = pose->transform();
+  if (!transform) {
+    throw UsageError("--view " + text + ": the quaternion qx,qy,qz,qw is not of unit length");
+  }
+  return {text.substr(0, colon), transform};
+}
+
 std::string firstLine(const std::string& text)
 {
   return text.substr(0, text.find('\n'));
@@ -97,9 +139,16 @@ std::optional<LocalizeOptions> parseLocalizeOptions(int argc, const char* const*
   app.footer("Exit status: 0 done, 1 an input was unreadable or malformed, 2 usage, bad parameter or config.");
   LocalizeOptions options;
   std::string preset, config_file;
+  std::vector<std::string> views;
   bool version = false;
   app.add_option("clouds", options.inputs, "PCD files; files named *.bag are read as bags")
       ->type_name("CLOUD.pcd|BAG.bag");
+  app.add_option("--view", views,
+                 "one of several clouds of one scene, localized in together: with the pose of its frame in the common "
+                 "one, metres and a unit quaternion, or with that of its VIEWPOINT (which has qw first). Results are "
+                 "in the common frame")
+      ->type_name("FILE.pcd[:x,y,z,qx,qy,qz,qw]")
+      ->allow_extra_args(false);
   app.add_option("--config", config_file, "YAML file of parameters, read over the preset")->type_name("FILE");
   app.add_option("--preset", preset, "localizer (default) or paper")->type_name("NAME");
   const ParameterValues values(app);
@@ -122,7 +171,12 @@ std::optional<LocalizeOptions> parseLocalizeOptions(int argc, const char* const*
     std::cout << "localize " << GRASP_AFFORDANCES_VERSION << "\n";
     return std::nullopt;
   }
-  if (options.inputs.empty()) {
+  std::transform(views.begin(), views.end(), std::back_inserter(options.views), parseView);
+  if (!options.inputs.empty() && !options.views.empty()) {
+    throw UsageError("--view " + views.front() + " and " + options.inputs.front() +
+                     ": clouds are given either as views or each for itself");
+  }
+  if (options.inputs.empty() && options.views.empty()) {
     throw UsageError("no cloud given (--help lists the options)");
   }
   options.config = makeConfig(preset, config_file, values);

@@ -2,6 +2,8 @@
 
 #include "grasp_affordances/config.h"
 
+#include <Eigen/Geometry>
+
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -10,10 +12,18 @@
 namespace grasp_affordances
 {
 
+/// A cloud that is localized in together with others.
+struct ViewFile
+{
+  std::string file;                                 ///< PCD
+  std::optional<Eigen::Isometry3d> T_common_cloud;  ///< empty: the file's VIEWPOINT
+};
+
 /// What the command line of `localize` asks for.
 struct LocalizeOptions
 {
-  std::vector<std::string> inputs;  ///< PCD files and bags
+  std::vector<std::string> inputs;  ///< PCD files and bags, each localized in on its own
+  std::vector<ViewFile> views;      ///< one cloud together, then there are no inputs
   Config config;                    ///< validated
   std::string topic;                ///< of the bags; empty: their only one
   std::string picture;              ///< path of the pictures; empty: none

@@ -68,6 +68,9 @@ TEST_F(EvaluateTest, UsageThatMakesNoSenseIsRefused)
   expectFailure("--runs 0", 2, "--runs");
   expectFailure("--capture-radius -1", 2, "hand/capture_radius");
   expectFailure("--config absent.yaml", 2, "absent.yaml");
+  expectFailure("--turn 0,200", 2, "--turn");
+  expectFailure("--turn 90,0,90", 2, "twice");
+  expectFailure("--turn 0,90 --labels labels.json", 2, "--turn");
   expectFailure("--frobnicate", 2, "--frobnicate");
   std::ofstream(path("paper.yaml")) << "preset: paper\n";
   expectFailure("--config paper.yaml --presets localizer", 2, "contradicts");
@@ -92,6 +95,19 @@ TEST_F(EvaluateTest, WritesTheSameTablesWithAnyNumberOfThreads)
     EXPECT_GT(content(path("one/" + name)).size(), 100U) << name;
     EXPECT_EQ(content(path("one/" + name)), content(path("three/" + name))) << name;
   }
+}
+
+TEST_F(EvaluateTest, TurnedCamerasAreViewsOfOneEvaluation)
+{
+  const Call call =
+      evaluate("--scenes mugs --seeds 101 --presets localizer --estimators taubin --turn 75,0 --pictures 1 --out .");
+  ASSERT_EQ(call.status, 0) << call.err;
+  EXPECT_NE(call.out.find("4000 samples. Precision"), std::string::npos) << call.out;
+  EXPECT_NE(call.out.find("4000 samples, 2 views. Precision"), std::string::npos) << call.out;
+  EXPECT_NE(call.out.find(" recall: < 60, elsewhere ≥ 200 |"), std::string::npos) << call.out;
+  const std::string summary = content(path("summary.csv"));
+  EXPECT_NE(summary.find("\nmugs,0,localizer,taubin,1,1,1,"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("\nmugs,0,localizer,taubin,2,1,1,"), std::string::npos) << summary;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "grasp_affordances/localizer.h"
 #include "grasp_affordances/parameters.h"
 
+#include "core/view_agreement.h"
+#include "simulation/camera_orbit.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -110,6 +112,21 @@ TEST_P(Allocations, NoneIsMadeForAFrameOnceMemoryHasGrown)
     EXPECT_EQ(quiet, kQuietFrames) << threads << " threads, " << frames << " frames";
     EXPECT_GT(result.shells.size(), 0U);
   }
+}
+
+TEST(ViewAgreementAllocations, NoneForViewsSeenBefore)
+{
+  const View view = makeScene("table", 1), turned = viewFromAside(view, 0.5);
+  const Cloud first = captureView(view, 1).cloud, second = captureView(turned, 2).cloud;
+  std::string warning;
+  const auto first_image = RangeImage::create(first, warning), second_image = RangeImage::create(second, warning);
+  const Eigen::Isometry3d T_first_second = view.T_scene_camera.inverse() * turned.T_scene_camera;
+  ViewAgreement agreement;
+  const double expected = agreement.disagreement(*first_image, *second_image, T_first_second);
+  const std::size_t before = allocations;
+  const double again = agreement.disagreement(*first_image, *second_image, T_first_second);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(again, expected);
 }
 
 }  // namespace

@@ -351,6 +351,23 @@ TEST(Localizer, WorksOnCloudsWithoutARangeImage)
   }
 }
 
+TEST(Transformed, TurnsAShellAndKeepsItsAxisAlongTheLargestComponent)
+{
+  Shell shell;
+  shell.centroid = {0.1, -0.2, 0.7};
+  shell.axis = Eigen::Vector3d(0.2, 0.9, 0.3).normalized();
+  shell.normal = shell.axis.unitOrthogonal();
+  shell.length = 0.045;
+  const Eigen::Isometry3d T(Eigen::Translation3d(1.0, 2.0, 3.0) *
+                            Eigen::AngleAxisd(3.0, Eigen::Vector3d::UnitX()));  // turns y and z over
+  const Shell moved = transformed(shell, T);
+  EXPECT_TRUE(moved.centroid.isApprox(T * shell.centroid, 1e-12));
+  EXPECT_TRUE(moved.axis.isApprox(-(T.linear() * shell.axis), 1e-12));
+  EXPECT_GT(moved.axis.y(), 0.8);
+  EXPECT_TRUE(moved.normal.isApprox(T.linear() * shell.normal, 1e-12));
+  EXPECT_EQ(moved.length, shell.length);
+}
+
 TEST(Localizer, RefusesParametersOutsideTheirRange)
 {
   Config config;

@@ -159,6 +159,47 @@ TEST_F(PcdTest, readsWhatPclWrites)
   EXPECT_EQ(readPcd(path).fields.size(), 8U) << "x y z normal_x normal_y normal_z rgb curvature";
 }
 
+TEST_F(PcdTest, readsTheViewpointWithQwFirst)
+{
+  Header header;
+  header.viewpoint = "VIEWPOINT 1 -2 0.5 0.5 -0.5 0.1 0.7\n";
+  SensorPose viewpoint;
+  readPcd(write(header.text() + kTwoPoints), &viewpoint);
+  EXPECT_EQ(viewpoint.position, Eigen::Vector3d(1, -2, 0.5));
+  EXPECT_EQ(viewpoint.orientation.w(), 0.5);
+  EXPECT_EQ(viewpoint.orientation.vec(), Eigen::Vector3d(-0.5, 0.1, 0.7));
+  EXPECT_EQ(readPcdCloud(write(header.text() + kTwoPoints)).sensor_origin, Eigen::Vector3f(1, -2, 0.5));
+
+  // As PCL means it: a quarter turn about z takes x to y.
+  pcl::PointCloud<pcl::PointXYZ> points(1, 1);
+  points.sensor_origin_ = {0.1F, 0.2F, 0.3F, 0.0F};
+  points.sensor_orientation_ = Eigen::AngleAxisf(1.5707963F, Eigen::Vector3f::UnitZ());
+  const std::string path = folder_ / "turned.pcd";
+  ASSERT_EQ(pcl::PCDWriter().writeBinary(path, points), 0);
+  readPcd(path, &viewpoint);
+  const auto transform = viewpoint.transform();
+  ASSERT_TRUE(transform);
+  EXPECT_TRUE((*transform * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(0.1, 1.2, 0.3), 1e-5));
+}
+
+TEST_F(PcdTest, aPoseNeedsAUnitQuaternionAndFiniteNumbers)
+{
+  const auto has_transform = [](double w, double x) {
+    return SensorPose{Eigen::Vector3d::Zero(), Eigen::Quaterniond(w, x, 0, 0)}.transform().has_value();
+  };
+  EXPECT_TRUE(has_transform(1.0009, 0));
+  EXPECT_FALSE(has_transform(1.0011, 0));
+  EXPECT_FALSE(has_transform(0.9989, 0));
+  EXPECT_FALSE(has_transform(0, 0));
+  EXPECT_FALSE(has_transform(1, 1));
+  EXPECT_FALSE(has_transform(std::numeric_limits<double>::quiet_NaN(), 0));
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE((SensorPose{{0, infinity, 0}, Eigen::Quaterniond::Identity()}.transform()));
+  const auto rounded = SensorPose{{1, 2, 3}, Eigen::Quaterniond(0.7071, 0.7071, 0, 0)}.transform();
+  ASSERT_TRUE(rounded);
+  EXPECT_NEAR(rounded->linear().determinant(), 1.0, 1e-12) << "normalized";
+}
+
 TEST_F(PcdTest, readsOtherLayouts)
 {
   Header header;

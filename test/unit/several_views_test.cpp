@@ -332,5 +332,23 @@ TEST(SeveralViews, GoOnWithoutThoseThatMeasuredNothing)
   EXPECT_EQ(localizeViews(config, {}).sampled, 0U);
 }
 
+TEST(SeveralViews, SayByHowMuchTheirPosesAreWrong)
+{
+  const SeenScene scene(makeScene("kitchen1", 1), {0.0, 30.0, -30.0});
+  Config config;
+  config.sampling.samples = 10;
+  std::vector<PosedCloud> views = scene.views(3);
+  const Localization right = localizeViews(config, views);
+  EXPECT_LT(right.view_disagreement, 0.005);
+  EXPECT_TRUE(right.warnings.empty());
+
+  views[1].T_common_cloud.translation().x() += 0.03;
+  const Localization wrong = localizeViews(config, views);
+  EXPECT_NEAR(wrong.view_disagreement, 0.03, 0.012);
+  ASSERT_EQ(wrong.warnings.size(), 2U);
+  EXPECT_EQ(wrong.warnings[0].rfind("views 1 and 2 place the same surfaces", 0), 0U) << wrong.warnings[0];
+  EXPECT_EQ(wrong.warnings[1].rfind("views 2 and 3 place the same surfaces", 0), 0U) << wrong.warnings[1];
+}
+
 }  // namespace
 }  // namespace grasp_affordances::test
