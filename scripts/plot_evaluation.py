@@ -28,7 +28,7 @@ def error_bars(values, intervals):
 
 def plot_precision(rows, preset, path):
     """Bars of the mean precision over the units of each scene with a defined precision."""
-    rows = [row for row in rows if row["preset"] == preset and not row["group"]]
+    rows = [row for row in rows if row["preset"] == preset and row["views"] == 1 and not row["group"]]
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
     estimators = [name for name in ESTIMATORS if any(row["estimator"] == name for row in rows)]
     width = 0.8 / len(estimators)

@@ -54,7 +54,11 @@ std::vector<Error> misses(const Evaluation& evaluation, std::size_t frame, std::
 {
   const FrameResult& result = evaluation.frames[frame];
   std::vector<Error> missed;
-  for (const Affordance& affordance : result.affordances) {
+  for (std::size_t i = 0; i < result.affordances.size(); ++i) {
+    const Affordance& affordance = result.affordances[i];
+    if (visiblePoints(result, i, evaluation.variations[variation].views) == 0) {
+      continue;
+    }
     std::optional<Error> error;
     for (std::size_t run = 0; run < result.runs[variation].size(); ++run) {
       if (!finds(result.runs[variation][run], affordance.label)) {
@@ -69,20 +73,30 @@ std::vector<Error> misses(const Evaluation& evaluation, std::size_t frame, std::
   return missed;
 }
 
-const Affordance& affordanceOf(const Evaluation& evaluation, const Error& error)
+/// Of the affordance missed.
+std::size_t affordanceIndex(const Evaluation& evaluation, const Error& error)
 {
   const auto& affordances = evaluation.frames[error.frame].affordances;
-  return *std::find_if(affordances.begin(), affordances.end(),
-                       [&](const Affordance& affordance) { return affordance.label == error.label; });
+  const auto found = std::find_if(affordances.begin(), affordances.end(),
+                                  [&](const Affordance& affordance) { return affordance.label == error.label; });
+  return static_cast<std::size_t>(found - affordances.begin());
+}
+
+/// In the views of the variation.
+std::size_t visiblePoints(const Evaluation& evaluation, const Error& error)
+{
+  return visiblePoints(evaluation.frames[error.frame], affordanceIndex(evaluation, error),
+                       evaluation.variations[error.variation].views);
 }
 
 std::string pictureName(const Evaluation& evaluation, const Error& error)
 {
   const FrameResult& frame = evaluation.frames[error.frame];
-  const Config& config = evaluation.variations[error.variation];
+  const auto& [config, views] = evaluation.variations[error.variation];
   return frame.scene + "-" + std::to_string(frame.seed) + "-" + config.preset + "-" +
-         enumWord(config.estimation.estimator) + (error.is_miss ? "-miss-" : "-wrong-") +
-         std::to_string(error.run + 1) + "-" + std::to_string(error.is_miss ? error.label : error.shell);
+         enumWord(config.estimation.estimator) + (views > 1 ? "-" + std::to_string(views) + "-views" : "") +
+         (error.is_miss ? "-miss-" : "-wrong-") + std::to_string(error.run + 1) + "-" +
+         std::to_string(error.is_miss ? error.label : error.shell);
 }
 
 std::string millimetres(double metres)
@@ -145,11 +159,11 @@ void draw(const std::string& folder, const Evaluation& evaluation, const Labelle
   const std::string name = pictureName(evaluation, error);
   const std::string path = folder + "/" + name;
   if (error.is_miss) {
-    const Affordance& affordance = affordanceOf(evaluation, error);
+    const Affordance& affordance = evaluation.frames[error.frame].affordances[affordanceIndex(evaluation, error)];
     drawMiss(path, labelled, error.label,
-             name + ":  " + affordance.object + ", " + std::to_string(affordance.visible_points) + " points, radius " +
-                 millimetres(affordance.radius) + ", missed in " + std::to_string(error.count) + " of " +
-                 std::to_string(evaluation.runs) + " runs");
+             name + ":  " + affordance.object + ", " + std::to_string(visiblePoints(evaluation, error)) +
+                 " points, radius " + millimetres(affordance.radius) + ", missed in " + std::to_string(error.count) +
+                 " of " + std::to_string(evaluation.runs) + " runs");
     return;
   }
   const Shell& shell = shellOf(evaluation, error);
@@ -191,7 +205,7 @@ std::vector<Error> worstErrors(const Evaluation& evaluation, std::size_t limit)
     }
   }
   const auto weight = [&](const Error& error) {
-    return error.is_miss ? affordanceOf(evaluation, error).visible_points : error.count;
+    return error.is_miss ? visiblePoints(evaluation, error) : error.count;
   };
   std::vector<Error> worst;
   for (auto& [key, candidates] : errors) {
@@ -218,7 +232,8 @@ void drawErrors(const std::string& folder, const Evaluation& evaluation, const s
       if (!labelled) {
         labelled = frames[frame].load();
       }
-      draw(folder, evaluation, *labelled, error);
+      const std::size_t views = evaluation.variations[error.variation].views;
+      draw(folder, evaluation, views > 1 ? united(*labelled, views) : *labelled, error);
       const std::lock_guard<std::mutex> lock(mutex);
       done();
     }

@@ -31,7 +31,8 @@ std::vector<Error> worstErrors(const Evaluation& evaluation, std::size_t limit);
 /// Draws each error with the cloud around it, colored by label: a wrong shell as
 /// FOLDER/SCENE-SEED-PRESET-ESTIMATOR-wrong-RUN-SHELL.png with a cross-section beside it in ...-section.png, RUN and
 /// SHELL being those of shells.csv; a miss as ...-miss-RUN-LABEL.png, the affordance in magenta. Earlier pictures of
-/// errors in the folder are removed.
+/// errors in the folder are removed. Of several views it draws the points of all, and -N-views follows
+/// ESTIMATOR.
 ///
 /// @param frames  that were evaluated
 /// @param threads  0: one per core

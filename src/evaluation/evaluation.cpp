@@ -5,18 +5,42 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 
 namespace grasp_affordances
 {
 namespace
 {
 
-Run evaluateRun(const LabelledCloud& labelled, const Judge& judge, Config config, std::size_t run)
+Judge makeJudge(const LabelledCloud& labelled, std::size_t views)
 {
+  Judge judge(labelled.cloud, labelled.labels);
+  for (std::size_t i = 0; i + 1 < views; ++i) {
+    const FurtherView& view = labelled.further_views.at(i);
+    judge.addView(view.cloud, view.labels, view.T_first_this);
+  }
+  return judge;
+}
+
+Localization localize(const LabelledCloud& labelled, std::size_t views, const Config& config)
+{
+  std::vector<PosedCloud> clouds{{&labelled.cloud, Eigen::Isometry3d::Identity()}};
+  for (std::size_t i = 0; i + 1 < views; ++i) {
+    const FurtherView& view = labelled.further_views.at(i);
+    clouds.push_back({&view.cloud, view.T_first_this});
+  }
+  Localization result;
+  Localizer(config).localize(clouds, result);
+  return result;
+}
+
+Run evaluateRun(const LabelledCloud& labelled, const Judge& judge, const Variation& variation, std::size_t run)
+{
+  Config config = variation.config;
   config.hand.capture_radius = labelled.capture_radius;
   config.sampling.seed = run + 1;
   config.threads = 1;
-  const Localization localization = Localizer(config).localize(labelled.cloud);
+  const Localization localization = localize(labelled, variation.views, config);
   Run result;
   result.sampled = localization.sampled;
   for (const Shell& shell : localization.shells) {
@@ -25,7 +49,38 @@ Run evaluateRun(const LabelledCloud& labelled, const Judge& judge, Config config
   return result;
 }
 
-FrameResult evaluateFrame(const EvaluationFrame& frame, const std::vector<Config>& variations, std::size_t runs)
+std::uint32_t measuredPoints(const Cloud& cloud)
+{
+  std::uint32_t points = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    points += cloud.measured(i) ? 1 : 0;
+  }
+  return points;
+}
+
+/// Sets what the views show.
+void countPoints(const LabelledCloud& labelled, FrameResult& result)
+{
+  result.points = measuredPoints(labelled.cloud);
+  for (const FurtherView& view : labelled.further_views) {
+    result.further_views.push_back({measuredPoints(view.cloud), {}});
+  }
+  for (const Affordance& affordance : labelled.affordances) {
+    std::vector<std::size_t> elsewhere;
+    for (const FurtherView& view : labelled.further_views) {
+      elsewhere.push_back(
+          static_cast<std::size_t>(std::count(view.labels.begin(), view.labels.end(), affordance.label)));
+    }
+    if (std::accumulate(elsewhere.begin(), elsewhere.end(), affordance.visible_points) > 0) {
+      result.affordances.push_back(affordance);
+      for (std::size_t i = 0; i < elsewhere.size(); ++i) {
+        result.further_views[i].visible_points.push_back(elsewhere[i]);
+      }
+    }
+  }
+}
+
+FrameResult evaluateFrame(const EvaluationFrame& frame, const std::vector<Variation>& variations, std::size_t runs)
 {
   const LabelledCloud labelled = frame.load();
   FrameResult result;
@@ -33,19 +88,12 @@ FrameResult evaluateFrame(const EvaluationFrame& frame, const std::vector<Config
   result.scene = frame.scene;
   result.seed = frame.seed;
   result.capture_radius = labelled.capture_radius;
-  for (std::size_t i = 0; i < labelled.cloud.size(); ++i) {
-    result.points += labelled.cloud.measured(i) ? 1 : 0;
-  }
-  for (const Affordance& affordance : labelled.affordances) {
-    if (affordance.visible_points > 0) {
-      result.affordances.push_back(affordance);
-    }
-  }
-  const Judge judge(labelled.cloud, labelled.labels);
-  for (const Config& config : variations) {
+  countPoints(labelled, result);
+  for (const Variation& variation : variations) {
+    const Judge judge = makeJudge(labelled, variation.views);
     result.runs.emplace_back();
     for (std::size_t run = 0; run < runs; ++run) {
-      result.runs.back().push_back(evaluateRun(labelled, judge, config, run));
+      result.runs.back().push_back(evaluateRun(labelled, judge, variation, run));
     }
   }
   return result;
@@ -59,7 +107,34 @@ bool finds(const Run& run, std::uint32_t label)
                      [label](const JudgedShell& judged) { return judged.verdict.affordance == label; });
 }
 
-std::vector<FrameResult> evaluate(const std::vector<EvaluationFrame>& frames, const std::vector<Config>& variations,
+std::size_t pointsIn(const FrameResult& frame, std::size_t views)
+{
+  std::size_t points = frame.points;
+  for (std::size_t i = 0; i + 1 < views; ++i) {
+    points += frame.further_views.at(i).points;
+  }
+  return points;
+}
+
+std::size_t visiblePoints(const FrameResult& frame, std::size_t affordance, std::size_t views)
+{
+  std::size_t points = frame.affordances[affordance].visible_points;
+  for (std::size_t i = 0; i + 1 < views; ++i) {
+    points += frame.further_views.at(i).visible_points[affordance];
+  }
+  return points;
+}
+
+std::size_t visibleElsewhere(const FrameResult& frame, std::size_t affordance)
+{
+  std::size_t most = 0;
+  for (const ViewCounts& view : frame.further_views) {
+    most = std::max(most, view.visible_points[affordance]);
+  }
+  return most;
+}
+
+std::vector<FrameResult> evaluate(const std::vector<EvaluationFrame>& frames, const std::vector<Variation>& variations,
                                   std::size_t runs, std::size_t threads, const std::function<void()>& done)
 {
   std::vector<FrameResult> results(frames.size());

@@ -48,33 +48,44 @@ const char* verdictName(Verdict::Kind kind)
   return kNames[kind];
 }
 
-Judge::Judge(const Cloud& cloud, const std::vector<std::uint32_t>& labels) : cloud_(cloud), labels_(labels)
+Judge::Judge(const Cloud& cloud, const std::vector<std::uint32_t>& labels)
+{
+  addView(cloud, labels, Eigen::Isometry3d::Identity());
+}
+
+void Judge::addView(const Cloud& cloud, const std::vector<std::uint32_t>& labels,
+                    const Eigen::Isometry3d& T_shell_cloud)
 {
   std::string warning;
-  image_ = RangeImage::create(cloud, warning);
+  views_.push_back({&cloud, &labels, T_shell_cloud.inverse(), RangeImage::create(cloud, warning)});
 }
 
 Verdict Judge::operator()(const Shell& shell) const
 {
   const double radius = shell.inner_radius + kMargin;
   LabelCounts counts;
-  const auto countRange = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d offset = cloud_.point(i).cast<double>() - shell.centroid;
-      const double along = offset.dot(shell.axis);
-      if (std::abs(along) <= shell.length / 2 && (offset - along * shell.axis).norm() <= radius) {  // false for NaN
-        ++counts[labels_[i]];
+  for (const View& view : views_) {
+    const Cloud& cloud = *view.cloud;
+    const Eigen::Vector3d centroid = view.T_cloud_shell * shell.centroid;
+    const Eigen::Vector3d axis = view.T_cloud_shell.linear() * shell.axis;
+    const auto countRange = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Eigen::Vector3d offset = cloud.point(i).cast<double>() - centroid;
+        const double along = offset.dot(axis);
+        if (std::abs(along) <= shell.length / 2 && (offset - along * axis).norm() <= radius) {  // false for NaN
+          ++counts[(*view.labels)[i]];
+        }
       }
+    };
+    if (!view.image) {
+      countRange(0, cloud.size());
+      continue;
     }
-  };
-  if (!image_) {
-    countRange(0, cloud_.size());
-    return verdict(counts);
-  }
-  const PixelWindow window = image_->window(shell.centroid, std::hypot(shell.length / 2, radius));
-  for (int v = window.v_begin; v < window.v_end; ++v) {
-    const std::size_t row = static_cast<std::size_t>(v) * cloud_.width;
-    countRange(row + static_cast<std::size_t>(window.u_begin), row + static_cast<std::size_t>(window.u_end));
+    const PixelWindow window = view.image->window(centroid, std::hypot(shell.length / 2, radius));
+    for (int v = window.v_begin; v < window.v_end; ++v) {
+      const std::size_t row = static_cast<std::size_t>(v) * cloud.width;
+      countRange(row + static_cast<std::size_t>(window.u_begin), row + static_cast<std::size_t>(window.u_end));
+    }
   }
   return verdict(counts);
 }

@@ -4,6 +4,8 @@
 #include "grasp_affordances/localization.h"
 #include "grasp_affordances/range_image.h"
 
+#include <Eigen/Geometry>
+
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -27,22 +29,31 @@ struct Verdict
 /// "right", "wrong" or "not_counted".
 const char* verdictName(Verdict::Kind kind);
 
-/// Judges shells by the labels (0: not graspable, 1..: affordance, 255: doubtful) of the cloud's points within a
+/// Judges shells by the labels (0: not graspable, 1..: affordance, 255: doubtful) of the points of all views within a
 /// shell's length and its inner radius + 2 mm: right where those of affordances are no fewer than the not graspable
 /// ones; not counted where the doubtful ones outnumber the not graspable ones; else wrong.
 ///
-/// Refers to cloud and labels, one per point, which must outlive it. Safe to use from many threads.
+/// Refers to clouds and labels, one per point, which must outlive it. Judging is safe from many threads.
 class Judge
 {
 public:
+  /// The frame of the cloud is that of the shells.
   Judge(const Cloud& cloud, const std::vector<std::uint32_t>& labels);
+
+  void addView(const Cloud& cloud, const std::vector<std::uint32_t>& labels, const Eigen::Isometry3d& T_shell_cloud);
 
   Verdict operator()(const Shell& shell) const;
 
 private:
-  const Cloud& cloud_;
-  const std::vector<std::uint32_t>& labels_;
-  std::optional<RangeImage> image_;  // where the cloud has one: only the pixels around a shell are looked at
+  struct View
+  {
+    const Cloud* cloud;
+    const std::vector<std::uint32_t>* labels;
+    Eigen::Isometry3d T_cloud_shell;
+    std::optional<RangeImage> image;  // where the cloud has one: only the pixels around a shell are looked at
+  };
+
+  std::vector<View> views_;
 };
 
 /// Judges one shell; for many on the same cloud use a Judge.

@@ -1,5 +1,6 @@
 #include "evaluation/labelled_cloud.h"
 
+#include "simulation/camera_orbit.h"
 #include "simulation/scene_library.h"
 #include "simulation/sensor.h"
 
@@ -12,23 +13,71 @@ namespace grasp_affordances
 namespace
 {
 
-LabelledCloud render(const std::string& scene, std::uint64_t seed, const GraspDefinition& definition)
+constexpr std::uint64_t kNoiseOfNextView = 1000000;  // is that of a seed so much larger
+
+LabelledCloud render(const std::string& scene, std::uint64_t seed, const GraspDefinition& definition,
+                     const std::vector<double>& turns)
 {
   const View view = makeScene(scene, seed);
+  std::vector<View> views;
+  std::vector<Eigen::Isometry3d> cameras;
+  for (const double turn : turns) {
+    views.push_back(viewFromAside(view, turn));
+    cameras.push_back(views.back().T_scene_camera);
+  }
   const Xtion xtion;
-  Frame frame = xtion.capture(view.scene, view.T_scene_camera, seed);
-  GroundTruth truth = groundTruth(view, frame, xtion.model(), definition);
-  return {std::move(frame.cloud), std::move(truth.labels), std::move(truth.affordances), definition.capture_radius};
+  LabelledCloud labelled;
+  labelled.capture_radius = definition.capture_radius;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    Frame frame = xtion.capture(views[i].scene, cameras[i], seed + i * kNoiseOfNextView);
+    GroundTruth truth = groundTruth(views[i], frame, xtion.model(), definition, cameras);
+    if (i == 0) {
+      labelled.cloud = std::move(frame.cloud);
+      labelled.labels = std::move(truth.labels);
+      labelled.affordances = std::move(truth.affordances);
+    } else {
+      labelled.further_views.push_back(
+          {std::move(frame.cloud), cameras.front().inverse() * cameras[i], std::move(truth.labels)});
+    }
+  }
+  return labelled;
 }
 
 }  // namespace
 
-EvaluationFrame renderedFrame(const std::string& group, const std::string& scene, std::uint64_t seed,
-                              const GraspDefinition& definition)
+LabelledCloud united(const LabelledCloud& labelled, std::size_t views)
 {
-  const auto load = [scene, seed, definition] {
+  LabelledCloud result;
+  result.affordances = labelled.affordances;
+  result.capture_radius = labelled.capture_radius;
+  std::vector<Eigen::Vector3f> points;
+  const auto append = [&](const Cloud& cloud, const Eigen::Isometry3d& T_first_this,
+                          const std::vector<std::uint32_t>& labels) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (cloud.measured(i)) {
+        points.push_back((T_first_this * cloud.point(i).cast<double>()).cast<float>());
+        result.labels.push_back(labels[i]);
+      }
+    }
+  };
+  append(labelled.cloud, Eigen::Isometry3d::Identity(), labelled.labels);
+  for (std::size_t i = 0; i + 1 < views; ++i) {
+    const FurtherView& view = labelled.further_views[i];
+    append(view.cloud, view.T_first_this, view.labels);
+  }
+  result.cloud.reset(static_cast<std::uint32_t>(points.size()), 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    result.cloud.set(i, points[i].x(), points[i].y(), points[i].z());
+  }
+  return result;
+}
+
+EvaluationFrame renderedFrame(const std::string& group, const std::string& scene, std::uint64_t seed,
+                              const GraspDefinition& definition, const std::vector<double>& turns)
+{
+  const auto load = [scene, seed, definition, turns] {
     try {
-      return render(scene, seed, definition);
+      return render(scene, seed, definition, turns);
     } catch (const std::exception& error) {
       throw std::runtime_error(scene + ", seed " + std::to_string(seed) + ": " + error.what());
     }

@@ -3,6 +3,9 @@
 #include "grasp_affordances/cloud.h"
 #include "simulation/ground_truth.h"
 
+#include <Eigen/Geometry>
+
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -11,14 +14,26 @@
 namespace grasp_affordances
 {
 
-/// A cloud with what can be grasped in it.
+/// What another camera sees of the same scene.
+struct FurtherView
+{
+  Cloud cloud;
+  Eigen::Isometry3d T_first_this = Eigen::Isometry3d::Identity();  ///< from its frame to that of the first view
+  std::vector<std::uint32_t> labels;                               ///< per point, those of the first view
+};
+
+/// A cloud with what can be grasped in it, and perhaps more views of that.
 struct LabelledCloud
 {
   Cloud cloud;
   std::vector<std::uint32_t> labels;    ///< per point: 0 not graspable, 1.. affordance, 255 doubtful
   std::vector<Affordance> affordances;  ///< what is not known of one is NaN or empty
   double capture_radius = 0.0;          ///< m, of the hand that the labels hold for
+  std::vector<FurtherView> further_views;
 };
+
+/// The first so many views as one, unorganized, in the frame of the first.
+LabelledCloud united(const LabelledCloud& labelled, std::size_t views);
 
 /// One cloud of an evaluation.
 struct EvaluationFrame
@@ -31,7 +46,8 @@ struct EvaluationFrame
 
 /// A scene of the library as the virtual Xtion sees it, with its ground truth; scene and noise have the same seed.
 /// Loading it throws std::runtime_error for a name that is not in the library.
+/// @param turns  rad; one view for each, see viewFromAside(), with noise of its own; at least one
 EvaluationFrame renderedFrame(const std::string& group, const std::string& scene, std::uint64_t seed,
-                              const GraspDefinition& definition);
+                              const GraspDefinition& definition, const std::vector<double>& turns = {0.0});
 
 }  // namespace grasp_affordances

@@ -78,17 +78,17 @@ private:
 void writeShells(const std::string& path, const Evaluation& evaluation)
 {
   Table table(
-      "scene,seed,run,preset,estimator,shell,verdict,affordance,x,y,z,axis_x,axis_y,axis_z,inner_radius,length,"
+      "scene,seed,run,preset,estimator,views,shell,verdict,affordance,x,y,z,axis_x,axis_y,axis_z,inner_radius,length,"
       "curvature,observed_free,points_inside,points_in_gap,point_index");
   for (const FrameResult& frame : evaluation.frames) {
     for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
-      const Config& config = evaluation.variations[variation];
+      const auto& [config, views] = evaluation.variations[variation];
       for (std::size_t run = 0; run < frame.runs[variation].size(); ++run) {
         const auto& shells = frame.runs[variation][run].shells;
         for (std::size_t i = 0; i < shells.size(); ++i) {
           const Shell& s = shells[i].shell;
           const Verdict& verdict = shells[i].verdict;
-          table.addRow(frame.scene, frame.seed, run + 1, config.preset, estimatorName(config), i,
+          table.addRow(frame.scene, frame.seed, run + 1, config.preset, estimatorName(config), views, i,
                        verdictName(verdict.kind), verdict.affordance, s.centroid.x(), s.centroid.y(), s.centroid.z(),
                        s.axis.x(), s.axis.y(), s.axis.z(), s.inner_radius, s.length, s.curvature, s.observed_free,
                        s.points_inside, s.points_in_gap, s.point_index);
@@ -102,21 +102,23 @@ void writeShells(const std::string& path, const Evaluation& evaluation)
 void writeAffordances(const std::string& path, const Evaluation& evaluation)
 {
   Table table(
-      "scene,seed,preset,estimator,label,object,visible_points,occluded_share,distance,radius,length,runs,found,"
+      "scene,seed,preset,estimator,views,label,object,visible_points,visible_elsewhere,occluded_share,distance,radius,"
+      "length,runs,found,"
       "chance");
   for (const FrameResult& frame : evaluation.frames) {
     for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
-      const Config& config = evaluation.variations[variation];
-      for (const Affordance& a : frame.affordances) {
+      const auto& [config, views] = evaluation.variations[variation];
+      for (std::size_t i = 0; i < frame.affordances.size(); ++i) {
+        const Affordance& a = frame.affordances[i];
         std::size_t found = 0;
         double chances = 0.0;
         for (const Run& run : frame.runs[variation]) {
           found += finds(run, a.label) ? 1 : 0;
-          chances += samplingChance(a.visible_points, frame.points, run.sampled);
+          chances += samplingChance(visiblePoints(frame, i, views), pointsIn(frame, views), run.sampled);
         }
-        table.addRow(frame.scene, frame.seed, config.preset, estimatorName(config), a.label, a.object, a.visible_points,
-                     a.occluded_share, a.distance, a.radius, a.length, evaluation.runs, found,
-                     chances / static_cast<double>(evaluation.runs));
+        table.addRow(frame.scene, frame.seed, config.preset, estimatorName(config), views, a.label, a.object,
+                     a.visible_points, visibleElsewhere(frame, i), a.occluded_share, a.distance, a.radius, a.length,
+                     evaluation.runs, found, chances / static_cast<double>(evaluation.runs));
       }
     }
   }
@@ -126,7 +128,7 @@ void writeAffordances(const std::string& path, const Evaluation& evaluation)
 void writeSummary(const std::string& path, const Evaluation& evaluation, const std::vector<SummaryRow>& rows)
 {
   std::string header =
-      "scene,group,preset,estimator,frames,runs,right,wrong,not_counted,wrong_per_run,precision,precision_low,"
+      "scene,group,preset,estimator,views,frames,runs,right,wrong,not_counted,wrong_per_run,precision,precision_low,"
       "precision_high,unit_precision,unit_precision_low,unit_precision_high,taubin_difference,taubin_difference_low,"
       "taubin_difference_high";
   for (const VisibilityClass& visibility : kVisibilityClasses) {
@@ -135,13 +137,13 @@ void writeSummary(const std::string& path, const Evaluation& evaluation, const s
   }
   Table table(header);
   for (const SummaryRow& row : rows) {
-    const Config& config = evaluation.variations[row.variation];
+    const auto& [config, views] = evaluation.variations[row.variation];
     const Score& s = row.score;
     const Mean difference = row.taubin_difference.value_or(Mean());
-    table.add(row.scene, row.is_group ? 1 : 0, config.preset, estimatorName(config), s.frames, s.runs, s.precision.part,
-              s.wrong(), s.not_counted, s.wrongPerRun(), s.precision.value(), s.interval.low, s.interval.high,
-              s.unit_precision.value, s.unit_precision.interval.low, s.unit_precision.interval.high, difference.value,
-              difference.interval.low, difference.interval.high);
+    table.add(row.scene, row.is_group ? 1 : 0, config.preset, estimatorName(config), views, s.frames, s.runs,
+              s.precision.part, s.wrong(), s.not_counted, s.wrongPerRun(), s.precision.value(), s.interval.low,
+              s.interval.high, s.unit_precision.value, s.unit_precision.interval.low, s.unit_precision.interval.high,
+              difference.value, difference.interval.low, difference.interval.high);
     for (const Recall& recall : s.recall) {
       table.add(recall.found.whole, recall.found.part, recall.found.value(), recall.chance);
     }
@@ -160,8 +162,9 @@ Json json(const Mean& mean)
   return {{"mean", mean.value}, {"interval", json(mean.interval)}, {"units", mean.count}};
 }
 
-Json json(const SummaryRow& row, const Config& config)
+Json json(const SummaryRow& row, const Variation& variation)
 {
+  const auto& [config, views] = variation;
   const Score& s = row.score;
   Json recalls;
   for (std::size_t i = 0; i < kVisibilityClasses.size(); ++i) {
@@ -176,6 +179,7 @@ Json json(const SummaryRow& row, const Config& config)
           {"group", row.is_group},
           {"preset", config.preset},
           {"estimator", estimatorName(config)},
+          {"views", views},
           {"frames", s.frames},
           {"runs", s.runs},
           {"right", s.precision.part},
@@ -208,14 +212,27 @@ std::string percent(double share, const Interval& interval)
   return percent(share) + (known ? " (" + percent(interval.low) + " to " + percent(interval.high) + ")" : "");
 }
 
-std::string markdownRow(const SummaryRow& row, bool compares)
+/// Those of which a table has a column.
+std::vector<std::size_t> visibilityColumns(const Evaluation& evaluation)
+{
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < kVisibilityClasses.size(); ++i) {
+    if (kVisibilityClasses[i].min_elsewhere == 0 || hasSeveralViews(evaluation)) {
+      columns.push_back(i);
+    }
+  }
+  return columns;
+}
+
+std::string markdownRow(const SummaryRow& row, const std::vector<std::size_t>& visibilities, bool compares)
 {
   const Score& s = row.score;
   std::ostringstream line;
   line << "| " << (row.is_group ? "**all of " + row.scene + "**" : row.scene) << " | " << s.frames << " × " << s.runs
        << " | " << s.precision.part << " | " << s.wrong() << " | " << percent(s.precision.value(), s.interval) << " | "
        << percent(s.unit_precision.value, s.unit_precision.interval) << " | " << text("%.2f", s.wrongPerRun());
-  for (const Recall& recall : s.recall) {
+  for (const std::size_t visibility : visibilities) {
+    const Recall& recall = s.recall[visibility];
     line << " | " << percent(recall.found.value());
     if (recall.found.whole > 0) {
       line << " of " << recall.found.whole;
@@ -235,27 +252,29 @@ std::string markdownRow(const SummaryRow& row, bool compares)
 std::string markdownTables(const Evaluation& evaluation, const std::vector<SummaryRow>& rows)
 {
   std::ostringstream tables;
+  const std::vector<std::size_t> visibilities = visibilityColumns(evaluation);
   for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
-    const Config& config = evaluation.variations[variation];
+    const auto& [config, views] = evaluation.variations[variation];
     bool compares = false;
     for (const SummaryRow& row : rows) {
       compares = compares || (row.variation == variation && row.taubin_difference);
     }
     tables << (variation > 0 ? "\n" : "") << "Preset `" << config.preset << "`, " << estimatorName(config) << ", "
-           << config.sampling.samples << " samples. Precision and recall in percent, with 95 % intervals.\n\n"
+           << config.sampling.samples << " samples" << (views > 1 ? ", " + std::to_string(views) + " views" : "")
+           << ". Precision and recall in percent, with 95 % intervals.\n\n"
            << "| scene | frames × runs | right | wrong | precision | mean precision | wrong per run |";
-    for (const VisibilityClass& visibility : kVisibilityClasses) {
-      tables << " recall: " << visibility.title << " |";
+    for (const std::size_t visibility : visibilities) {
+      tables << " recall: " << kVisibilityClasses[visibility].title << " |";
     }
     tables << " chance: " << kVisibilityClasses.back().title << " |" << (compares ? " Taubin minus this |" : "")
            << "\n|---|";
-    for (std::size_t i = 0; i < 7 + kVisibilityClasses.size() + (compares ? 1 : 0); ++i) {
+    for (std::size_t i = 0; i < 7 + visibilities.size() + (compares ? 1 : 0); ++i) {
       tables << "---|";
     }
     tables << "\n";
     for (const SummaryRow& row : rows) {
       if (row.variation == variation) {
-        tables << markdownRow(row, compares);
+        tables << markdownRow(row, visibilities, compares);
       }
     }
   }

@@ -45,17 +45,18 @@ std::size_t count(const Unit& unit, Verdict::Kind kind)
   return shells;
 }
 
-Recall recallOf(const VisibilityClass& visibility, const std::vector<Unit>& units)
+Recall recallOf(const VisibilityClass& visibility, const std::vector<Unit>& units, std::size_t views)
 {
   std::vector<Ratio> ratios;
   double chances = 0.0;
   for (const Unit& unit : units) {
     Ratio ratio;
     for (const FrameRun& member : unit) {
-      for (const Affordance& affordance : member.frame.affordances) {
-        if (visibility.holds(affordance)) {
-          ratio += {finds(member.run, affordance.label) ? std::size_t{1} : 0, 1};
-          chances += samplingChance(affordance.visible_points, member.frame.points, member.run.sampled);
+      const auto& [frame, run] = member;
+      for (std::size_t i = 0; i < frame.affordances.size(); ++i) {
+        if (visibility.holds(frame.affordances[i], visibleElsewhere(frame, i))) {
+          ratio += {finds(run, frame.affordances[i].label) ? std::size_t{1} : 0, 1};
+          chances += samplingChance(visiblePoints(frame, i, views), pointsIn(frame, views), run.sampled);
         }
       }
     }
@@ -89,14 +90,15 @@ bool hasSeveralScenes(const std::vector<const FrameResult*>& frames)
 }
 
 /// Sets the differences to Taubin of rows that hold all variations of some frames.
-void compareWithTaubin(const std::vector<Config>& variations, SummaryRow* rows)
+void compareWithTaubin(const std::vector<Variation>& variations, SummaryRow* rows)
 {
   for (std::size_t taubin = 0; taubin < variations.size(); ++taubin) {
-    if (variations[taubin].estimation.estimator != Estimator::taubin) {
+    if (variations[taubin].config.estimation.estimator != Estimator::taubin) {
       continue;
     }
     for (std::size_t other = 0; other < variations.size(); ++other) {
-      if (other != taubin && variations[other].preset == variations[taubin].preset) {
+      if (other != taubin && variations[other].config.preset == variations[taubin].config.preset &&
+          variations[other].views == variations[taubin].views) {
         rows[other].taubin_difference = pairedDifference(rows[taubin].score.units, rows[other].score.units);
       }
     }
@@ -113,7 +115,13 @@ double samplingChance(std::size_t visible, std::size_t points, std::size_t sampl
   return 1.0 - std::pow(1.0 - static_cast<double>(visible) / static_cast<double>(points), samples);
 }
 
-Score score(const std::vector<const FrameResult*>& frames, std::size_t variation)
+bool hasSeveralViews(const Evaluation& evaluation)
+{
+  return std::any_of(evaluation.variations.begin(), evaluation.variations.end(),
+                     [](const Variation& variation) { return variation.views > 1; });
+}
+
+Score score(const std::vector<const FrameResult*>& frames, std::size_t variation, std::size_t views)
 {
   const std::vector<Unit> units = makeUnits(frames, variation);
   Score result;
@@ -128,7 +136,7 @@ Score score(const std::vector<const FrameResult*>& frames, std::size_t variation
   result.interval = pooledInterval(result.units);
   result.unit_precision = meanShare(result.units);
   for (std::size_t i = 0; i < kVisibilityClasses.size(); ++i) {
-    result.recall[i] = recallOf(kVisibilityClasses[i], units);
+    result.recall[i] = recallOf(kVisibilityClasses[i], units, views);
   }
   return result;
 }
@@ -139,7 +147,8 @@ std::vector<SummaryRow> summarize(const Evaluation& evaluation)
   const auto append = [&](const std::string& name, bool is_group, const std::vector<const FrameResult*>& frames) {
     const std::size_t first = rows.size();
     for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
-      rows.push_back({name, is_group, variation, score(frames, variation), std::nullopt});
+      rows.push_back(
+          {name, is_group, variation, score(frames, variation, evaluation.variations[variation].views), std::nullopt});
     }
     compareWithTaubin(evaluation.variations, rows.data() + first);
   };

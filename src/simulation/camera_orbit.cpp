@@ -38,6 +38,9 @@ Eigen::Isometry3d CameraOrbit::pose(double time) const
 
 View viewFromAside(View view, double angle)
 {
+  if (angle == 0.0) {
+    return view;
+  }
   const Eigen::Translation3d T_scene_target(view.T_scene_camera * (distanceLookedAt(view) * Eigen::Vector3d::UnitZ()));
   view.T_scene_camera =
       T_scene_target * turned(angle, Eigen::Vector3d::UnitZ()) * T_scene_target.inverse() * view.T_scene_camera;

@@ -29,7 +29,7 @@ private:
 
 /// The same scene by a camera turned about the scene's vertical, z, through the point that it looks at: it keeps its
 /// height, its tilt and its distance from that point.
-/// @param angle rad, counter-clockwise as seen from above
+/// @param angle rad, counter-clockwise as seen from above; 0 leaves the pose as it is, to the last bit
 View viewFromAside(View view, double angle);
 
 }  // namespace grasp_affordances

@@ -115,11 +115,14 @@ double occludedShare(const View& view, const RayCaster& everything, const GripLa
 }  // namespace
 
 GroundTruth groundTruth(const View& view, const Frame& frame, const XtionModel& model,
-                        const GraspDefinition& definition)
+                        const GraspDefinition& definition, const std::vector<Eigen::Isometry3d>& other_cameras)
 {
   const Eigen::Isometry3d T_camera_scene = view.T_scene_camera.inverse();
   const GripLabels labels(view.scene, definition, [&](const Eigen::Vector3d& point_scene) {
-    return std::max(kLeastMargin, model.depthQuantum((T_camera_scene * point_scene).z()));
+    double margin = std::max(kLeastMargin, model.depthQuantum((T_camera_scene * point_scene).z()));
+    for (const Eigen::Isometry3d& T_scene_other : other_cameras)
+      margin = std::max(margin, model.depthQuantum((T_scene_other.inverse() * point_scene).z()));
+    return margin;
   });
 
   GroundTruth truth;

@@ -4,7 +4,7 @@
 #include "simulation/scene.h"
 #include "simulation/sensor.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstddef>
 #include <cstdint>
@@ -42,8 +42,11 @@ struct GroundTruth
 /// whichever is larger; so is a slim bar whose section fits into the hand but is rectangular or too flat.
 ///
 /// @param frame captured by a sensor of that model from the view
+/// @param other_cameras  poses in the scene of more sensors of that model: the margin is then the largest of all, so
+/// that an affordance of one view has the same label in each
 /// @throw std::length_error for a scene with more than 254 affordances
 GroundTruth groundTruth(const View& view, const Frame& frame, const XtionModel& model,
-                        const GraspDefinition& definition = GraspDefinition());
+                        const GraspDefinition& definition = GraspDefinition(),
+                        const std::vector<Eigen::Isometry3d>& other_cameras = {});
 
 }  // namespace grasp_affordances

@@ -30,7 +30,7 @@ Score score(const std::vector<std::string>& scenes, const char* preset, std::siz
     }
   }
   Score result;
-  for (const FrameResult& frame : evaluate(frames, {presetConfig(preset)}, 1, 0, [] {})) {
+  for (const FrameResult& frame : evaluate(frames, {{presetConfig(preset)}}, 1, 0, [] {})) {
     const Run& run = frame.runs.front().front();
     ++result.frames;
     for (const JudgedShell& judged : run.shells) {

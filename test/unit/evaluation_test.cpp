@@ -137,6 +137,46 @@ TEST(Judge, BoundedSearchOfAnOrganizedCloudAgreesWithLookingAtEachPoint)
   EXPECT_GT(not_counted, 20);
 }
 
+TEST(Judge, CountsThePointsOfAllViewsInTheFrameOfTheShell)
+{
+  Random random(3);
+  const Cloud cloud = makeOrganizedCloud(random);
+  const Labels graspable(cloud.size(), 1), other(cloud.size(), 0);
+  Shell shell;
+  shell.centroid = {0.1, 0.05, 0.65};
+  shell.inner_radius = 0.03;
+  shell.length = 0.1;
+  const Eigen::Isometry3d T_first_second(Eigen::Translation3d(0.5, -0.2, 0.7) *
+                                         Eigen::AngleAxisd(1.2, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
+  const Shell first = shell;
+  shell.centroid = T_first_second * first.centroid;
+  shell.axis = T_first_second.linear() * first.axis;
+  const Cloud nothing;
+  const Labels no_labels;
+  Judge judge(nothing, no_labels);
+  judge.addView(cloud, graspable, T_first_second);
+  EXPECT_EQ(judge(shell).kind, Verdict::right);
+  EXPECT_EQ(judge(first).kind, Verdict::wrong) << "no point of the view is there";
+  judge.addView(cloud, other, T_first_second);
+  EXPECT_EQ(judge(shell).kind, Verdict::right) << "as many as others";
+  judge.addView(cloud, other, T_first_second);
+  EXPECT_EQ(judge(shell).kind, Verdict::wrong);
+}
+
+TEST(LabelledCloud, UnitedViewsAreInTheFrameOfTheFirst)
+{
+  LabelledCloud labelled;
+  labelled.cloud.reset(2, 1);
+  labelled.cloud.set(1, 0.1F, 0.2F, 0.9F);
+  labelled.labels = {7, 1};
+  labelled.further_views = {{cloudOf({{0.0, 0.0, 1.0}}), Eigen::Isometry3d(Eigen::Translation3d(0.5, 0.0, 0.0)), {2}},
+                            {cloudOf({{0.0, 0.0, 2.0}}), Eigen::Isometry3d::Identity(), {3}}};
+  const LabelledCloud two = united(labelled, 2);
+  EXPECT_EQ(two.labels, (Labels{1, 2})) << "what is not measured is left out";
+  EXPECT_TRUE(two.cloud.point(1).isApprox(Eigen::Vector3f(0.5F, 0.0F, 1.0F)));
+  EXPECT_EQ(united(labelled, 3).labels, (Labels{1, 2, 3}));
+}
+
 TEST(Statistics, MeanHasTheIntervalOfStudentsT)
 {
   const Mean result = mean({1.0, 2.0, 3.0});
@@ -219,7 +259,7 @@ Evaluation makeEvaluation()
   Evaluation evaluation;
   evaluation.runs = 2;
   evaluation.variations.resize(2);
-  evaluation.variations[1].estimation.estimator = Estimator::pca;
+  evaluation.variations[1].config.estimation.estimator = Estimator::pca;
   FrameResult first = makeFrame("mugs", 1);
   first.affordances = {makeAffordance(1, 900, 0.1), makeAffordance(2, 100, 0.9)};
   first.runs = {{{{judged(Verdict::right, 1), judged(Verdict::right, 2), judged(Verdict::not_counted)}, 10},
@@ -258,6 +298,32 @@ TEST(Summary, PoolsPrecisionAndRecallOverRuns)
   EXPECT_DOUBLE_EQ(recall("200_clear").found.value(), 1.0);
   EXPECT_DOUBLE_EQ(recall("below_800").found.value(), 0.25);
   EXPECT_NEAR(recall("below_800").chance, (1.0 - std::pow(0.9, 10) + 1.0 - std::pow(0.7, 10)) / 2, 1e-12);
+}
+
+TEST(Summary, CountsByWhatTheFirstViewAndTheOthersShow)
+{
+  Evaluation evaluation = makeEvaluation();
+  evaluation.variations[1] = {evaluation.variations[0].config, 2};
+  FrameResult& frame = evaluation.frames[0];
+  frame.affordances.push_back(makeAffordance(3, 0, 1.0));
+  frame.further_views = {{3000, {0, 50, 400}}, {1000, {0, 300, 0}}};
+  frame.runs[1][0].shells = {judged(Verdict::right, 3)};
+  evaluation.frames.resize(1);
+  EXPECT_EQ(pointsIn(frame, 2), 4000U);
+  EXPECT_EQ(visiblePoints(frame, 1, 3), 450U);
+  EXPECT_EQ(visibleElsewhere(frame, 1), 300U);
+  const std::vector<SummaryRow> rows = summarize(evaluation);
+  EXPECT_FALSE(rows[1].taubin_difference);
+  const auto& one = rows[0].score.recall;
+  const auto& two = rows[1].score.recall;
+  EXPECT_EQ(one[0].found.whole, 4U) << "what the first view does not show counts in no class but those of other views";
+  ASSERT_EQ(kVisibilityClasses[5].key, std::string("hidden"));
+  ASSERT_EQ(kVisibilityClasses[6].key, std::string("hardly_seen"));
+  EXPECT_EQ(one[5].found.part, 0U);
+  EXPECT_EQ(two[5].found.part, 1U);
+  EXPECT_EQ(two[5].found.whole, 2U);
+  EXPECT_EQ(two[6].found.whole, 4U);
+  EXPECT_NEAR(two[5].chance, 1.0 - std::pow(0.9, 10), 1e-12);
 }
 
 TEST(Summary, ComparesWithTaubinUnitByUnit)
@@ -369,7 +435,7 @@ TEST(Evaluate, ThreadsHaveNoInfluence)
   std::vector<std::string> tables;
   for (const std::size_t threads : {1, 3}) {
     std::size_t done = 0;
-    Evaluation evaluation{{fewSamples()}, 2, {}};
+    Evaluation evaluation{{{fewSamples()}}, 2, {}};
     evaluation.frames = evaluate(frames, evaluation.variations, 2, threads, [&] { ++done; });
     EXPECT_EQ(done, 3U);
     ASSERT_EQ(evaluation.frames.size(), 3U);
@@ -386,7 +452,7 @@ TEST(Evaluate, FailsWithTheFrameThatCannotBeLoaded)
 {
   std::vector<EvaluationFrame> frames{barFrame(1), barFrame(2)};
   frames[1].load = []() -> LabelledCloud { throw std::runtime_error("no such cloud"); };
-  EXPECT_THROW(evaluate(frames, {fewSamples()}, 1, 2, [] {}), std::runtime_error);
+  EXPECT_THROW(evaluate(frames, {{fewSamples()}}, 1, 2, [] {}), std::runtime_error);
 }
 
 class EvaluationFiles : public testing::Test
@@ -421,14 +487,14 @@ TEST_F(EvaluationFiles, ReportHasARowPerShellAndPerAffordance)
   writeReport(folder_, evaluation, summarize(evaluation));
   const auto shells = lines("shells.csv");
   ASSERT_EQ(shells.size(), 1U + 7U);
-  EXPECT_EQ(shells[2].substr(0, 34), "mugs,1,1,localizer,taubin,1,right,");
+  EXPECT_EQ(shells[2].substr(0, 36), "mugs,1,1,localizer,taubin,1,1,right,");
   const auto affordances = lines("affordances.csv");
   ASSERT_EQ(affordances.size(), 1U + 2U * 3U);
-  EXPECT_EQ(affordances[1].substr(0, 51), "mugs,1,localizer,taubin,1,object 1,900,0.1,0,0,0,2,");
+  EXPECT_EQ(affordances[1].substr(0, 55), "mugs,1,localizer,taubin,1,1,object 1,900,0,0.1,0,0,0,2,");
   EXPECT_EQ(lines("summary.csv").size(), 1U + 2U);
   EXPECT_EQ(lines("table.md").size(), 2U * 5U + 1U);
   for (const std::string& line : lines("summary.csv")) {
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 18 + 4 * 6) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 19 + 4 * 8) << line;
   }
 }
 
@@ -441,7 +507,7 @@ TEST_F(EvaluationFiles, ReportThatCannotBeWrittenIsAnError)
 TEST_F(EvaluationFiles, ErrorsAreDrawnUnderTheirNames)
 {
   const std::vector<EvaluationFrame> frames{barFrame(1)};
-  Evaluation evaluation{{fewSamples()}, 1, {}};
+  Evaluation evaluation{{{fewSamples()}}, 1, {}};
   evaluation.frames = evaluate(frames, evaluation.variations, 1, 1, [] {});
   auto& shells = evaluation.frames[0].runs[0][0].shells;
   ASSERT_FALSE(shells.empty());

@@ -446,6 +446,19 @@ TEST(GroundTruth, MarginGrowsWithTheDepthQuantum)
   EXPECT_EQ(labelAt(0.008 + 0.00105, model), 1U);
 }
 
+TEST(GroundTruth, MarginIsThatOfTheFarthestCamera)
+{
+  const XtionModel model;
+  const View view = barBeforePlate(0.008 + 1.05 * model.depthQuantum(0.8));
+  const Frame frame = Xtion(model).capture(view.scene, view.T_scene_camera, 1);
+  const auto largestLabel = [&](const std::vector<Eigen::Isometry3d>& other_cameras) {
+    const GroundTruth truth = groundTruth(view, frame, model, kDefinition, other_cameras);
+    return *std::max_element(truth.labels.begin(), truth.labels.end());
+  };
+  EXPECT_EQ(largestLabel({view.T_scene_camera, at(0.0, 0.0, 0.3)}), 1U);
+  EXPECT_EQ(largestLabel({view.T_scene_camera, at(0.0, 0.0, -0.3)}), kDoubtful);
+}
+
 TEST(GroundTruth, IsEmptyForAnEmptyScene)
 {
   const XtionModel model;

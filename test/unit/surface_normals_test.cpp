@@ -34,6 +34,11 @@ bool hasNormal(const SurfaceNormals& surface, std::size_t i)
   return !std::isnan(surface.normals().x[i]);
 }
 
+void require(const Neighborhood& neighborhood, SurfaceNormals& surface)
+{
+  surface.require(neighborhood.index(), neighborhood.size());
+}
+
 TEST(SurfaceNormals, AreThoseOfThePointsAskedFor)
 {
   const Cloud cloud = sheet();
@@ -45,9 +50,9 @@ TEST(SurfaceNormals, AreThoseOfThePointsAskedFor)
     for (int round = 0; round < 2; ++round) {  // nothing stays from a cloud before
       surface.reset(cloud.size());
       if (round == 0) {
-        surface.require(bruteForceNeighborhood(cloud, cloud.point(0), 0.02F));
+        require(bruteForceNeighborhood(cloud, cloud.point(0), 0.02F), surface);
       } else {
-        surface.require(asked);
+        require(asked, surface);
       }
       surface.compute(cloud, *search, kRadius, 1, team);
     }
@@ -70,7 +75,7 @@ std::vector<bool> sparseNormals(const Cloud& cloud)
   ThreadTeam team(1);
   SurfaceNormals surface;
   surface.reset(cloud.size());
-  surface.require(bruteForceNeighborhood(cloud, cloud.point(0), 10.0F));
+  require(bruteForceNeighborhood(cloud, cloud.point(0), 10.0F), surface);
   surface.compute(cloud, *makeTreeSearch(cloud), kRadius, SurfaceNormals::kSparseStride, team);
   std::vector<bool> has;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
