@@ -91,6 +91,14 @@ void LocalizationOutputs::reject(const std::string& reason)
   }
 }
 
+void LocalizationOutputs::leaveUntransformed(const std::string& reason)
+{
+  ++untransformed_;
+  if (missing_transforms_.due()) {
+    ROS_WARN_STREAM_NAMED(name_, "cloud dropped for want of a transform: " << reason);
+  }
+}
+
 void LocalizationOutputs::publish(const Localization& localization, const Config& config,
                                   const std_msgs::Header& header, Clock::time_point arrival)
 {
@@ -104,6 +112,7 @@ void LocalizationOutputs::publish(const Localization& localization, const Config
   auto statistics = boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, config, header));
   statistics->clouds_processed = processed_;
   statistics->clouds_rejected = rejected_;
+  statistics->clouds_without_transform = untransformed_;
   {
     const std::lock_guard<std::mutex> lock(counters_mutex_);
     statistics->clouds_dropped = dropped_;

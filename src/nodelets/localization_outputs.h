@@ -43,6 +43,9 @@ public:
   /// Counts a cloud that cannot be used, and says why.
   void reject(const std::string& reason);
 
+  /// Counts a cloud that a transform is missing for, and says which.
+  void leaveUntransformed(const std::string& reason);
+
   /// Counts and publishes a result. `arrival`: when its cloud came in. `header`: of all outputs.
   void publish(const Localization& localization, const Config& config, const std_msgs::Header& header,
                Clock::time_point arrival);
@@ -70,8 +73,10 @@ private:
   // Of the worker's thread.
   std::uint64_t processed_ = 0;
   std::uint64_t rejected_ = 0;
+  std::uint64_t untransformed_ = 0;
   ShellMarkers shell_markers_;
   Throttle rejections_;
+  Throttle missing_transforms_;
   Throttle warnings_;
 };
 

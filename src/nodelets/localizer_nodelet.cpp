@@ -5,14 +5,20 @@
 #include "nodelets/localization_outputs.h"
 #include "nodelets/newest_only_worker.h"
 #include "nodelets/parameters_ros.h"
+#include "nodelets/ros_time.h"
 #include "nodelets/throttle.h"
+#include "nodelets/transforms.h"
 
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+#include <tf2/exceptions.h>
+#include <Eigen/Geometry>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -33,8 +39,9 @@ constexpr std::uint32_t kSubscriberQueue = 5;
 
 /// Localizes enveloping grasp affordances in the newest of the clouds that arrive.
 ///
-/// Subscribed: points (sensor_msgs/PointCloud2), camera_info (sensor_msgs/CameraInfo, optional).
-/// Published, for every processed cloud and with its stamp and frame: see LocalizationOutputs.
+/// Subscribed: points (sensor_msgs/PointCloud2), camera_info (sensor_msgs/CameraInfo, optional); /tf and /tf_static
+/// where a parameter names a frame.
+/// Published, for every processed cloud, with its stamp and in its frame or the target frame: see LocalizationOutputs.
 /// Parameters: see NodeParameters.
 class LocalizerNodelet : public nodelet::Nodelet
 {
@@ -43,6 +50,9 @@ public:
   {
     // In this order: no more clouds come in, then the last one is finished while its publishers still exist.
     outputs_.close();
+    if (transforms_) {
+      transforms_->close();
+    }
     worker_.reset();
   }
 
@@ -61,11 +71,20 @@ private:
   void unsubscribe();
   void receive(const Points& message);
   void process(const Arrival& arrival);
+  void localize(const Arrival& arrival);
+  Eigen::Isometry3d transform(const std::string& frame, const std_msgs::Header& header);
   std::optional<PinholeIntrinsics> knownIntrinsics(const Cloud& cloud);
 
+  NodeParameters parameters_;
   LocalizationOutputs outputs_;
+  ros::WallTimer clock_complaint_;
+  std::unique_ptr<Transforms> transforms_;  // null where no parameter names a frame
   ros::Subscriber points_;
   ros::Subscriber camera_info_;
+
+  // Of the callback for clouds.
+  TimeJumps time_jumps_;
+  Throttle reported_jumps_;
 
   std::mutex camera_mutex_;
   Camera camera_;  // the latest, null before the first
@@ -82,18 +101,20 @@ private:
 void LocalizerNodelet::onInit()
 {
   ros::NodeHandle& private_nh = getPrivateNodeHandle();
-  bool lazy = true;
   try {
-    const NodeParameters parameters = nodeParameters(private_nh);
-    lazy = parameters.lazy;
-    localizer_ = std::make_unique<Localizer>(parameters.config);
+    parameters_ = nodeParameters(private_nh);
+    localizer_ = std::make_unique<Localizer>(parameters_.config);
   } catch (const ParameterError& error) {
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
   }
+  clock_complaint_ = complainWithoutClock(getNodeHandle(), getName());
+  if (!parameters_.workspace_frame.empty() || !parameters_.target_frame.empty()) {
+    transforms_ = std::make_unique<Transforms>(getNodeHandle());
+  }
   worker_ = std::make_unique<NewestOnlyWorker<Arrival>>([this](const Arrival& arrival) { process(arrival); });
   outputs_.advertise(
-      private_nh, getName(), lazy, [this] { subscribe(); }, [this] { unsubscribe(); });
+      private_nh, getName(), parameters_.lazy, [this] { subscribe(); }, [this] { unsubscribe(); });
 }
 
 void LocalizerNodelet::subscribe()
@@ -119,19 +140,53 @@ void LocalizerNodelet::unsubscribe()
 void LocalizerNodelet::receive(const Points& message)
 {
   const LocalizationOutputs::Clock::time_point now = LocalizationOutputs::Clock::now();
+  if (time_jumps_.wentBack(message->header.stamp)) {
+    if (reported_jumps_.due()) {
+      NODELET_INFO_STREAM("time goes back to " << message->header.stamp);
+    }
+    if (transforms_) {
+      transforms_->restart();
+    }
+  }
   outputs_.receive([&] { return worker_->put({message, now}); });
 }
 
 void LocalizerNodelet::process(const Arrival& arrival)
 {
   try {
-    cloudFromPointCloud2(*arrival.message, cloud_);
-    cloud_.intrinsics = knownIntrinsics(cloud_);
-    localizer_->localize(cloud_, localization_);
-    outputs_.publish(localization_, localizer_->config(), arrival.message->header, arrival.time);
+    localize(arrival);
+  } catch (const tf2::TransformException& error) {
+    outputs_.leaveUntransformed(error.what());
   } catch (const std::exception& error) {  // CloudError, or no memory for what a cloud asks for
     outputs_.reject(error.what());
   }
+}
+
+void LocalizerNodelet::localize(const Arrival& arrival)
+{
+  std_msgs::Header header = arrival.message->header;
+  cloudFromPointCloud2(*arrival.message, cloud_);
+  cloud_.intrinsics = knownIntrinsics(cloud_);
+  const Eigen::Isometry3d T_workspace_cloud = transform(parameters_.workspace_frame, header);
+  const Eigen::Isometry3d T_target_cloud = transform(parameters_.target_frame, header);
+
+  localizer_->localize(cloud_, localization_, T_workspace_cloud);
+  if (!parameters_.target_frame.empty()) {
+    for (Shell& shell : localization_.shells) {
+      shell = transformed(shell, T_target_cloud);
+    }
+    header.frame_id = parameters_.target_frame;
+  }
+  outputs_.publish(localization_, localizer_->config(), header, arrival.time);
+}
+
+Eigen::Isometry3d LocalizerNodelet::transform(const std::string& frame, const std_msgs::Header& header)
+{
+  if (frame.empty() || frame == header.frame_id) {
+    return Eigen::Isometry3d::Identity();
+  }
+  return transforms_->lookup(frame, header.frame_id, header.stamp,
+                             std::chrono::duration<double>(parameters_.transform_timeout));
 }
 
 std::optional<PinholeIntrinsics> LocalizerNodelet::knownIntrinsics(const Cloud& cloud)

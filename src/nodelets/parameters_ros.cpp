@@ -18,6 +18,9 @@ NodeParameters nodeParameters(ParameterReader read)
   result.config = presetConfig(preset);
   visitParameters(result.config, read);
   read("lazy", result.lazy, "");
+  read("workspace_frame", result.workspace_frame, "the name of a frame");
+  read("target_frame", result.target_frame, "the name of a frame");
+  read("transform_timeout", result.transform_timeout, Range<double>{0.0, 10.0}, "s", "");
   read.refuseRemaining();
   validate(result.config);
   return result;

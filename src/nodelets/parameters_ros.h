@@ -5,6 +5,8 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <string>
+
 namespace grasp_affordances
 {
 
@@ -12,13 +14,16 @@ namespace grasp_affordances
 struct NodeParameters
 {
   Config config;
-  bool lazy = true;  ///< subscribe only while somebody listens to an output
+  bool lazy = true;                ///< subscribe only while somebody listens to an output
+  std::string workspace_frame;     ///< of the box in `config`; empty: the frame of the cloud
+  std::string target_frame;        ///< of the outputs; empty: the frame of the cloud
+  double transform_timeout = 0.1;  ///< s of wall-clock time that a cloud waits for its transforms
 };
 
-/// Reads the struct of a node's private parameters: `preset` names the base, `lazy` and the parameters of
-/// visitParameters() overrule it. Every name must be known: the private namespace belongs to the node.
-/// @throw ParameterError with name, value and allowed values for an unknown name, a wrong type (see ParameterReader) or a
-/// value outside its range.
+/// Reads the struct of a node's private parameters: `preset` names the base, the parameters of
+/// visitParameters() and those above overrule it. Every name must be known: the private namespace belongs to the node.
+/// @throw ParameterError with name, value and allowed values for an unknown name, a wrong type (see ParameterReader) or
+/// a value outside its range.
 NodeParameters nodeParameters(const XmlRpc::XmlRpcValue& parameters);
 
 /// As above, from the parameter server.

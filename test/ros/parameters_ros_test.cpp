@@ -46,6 +46,22 @@ TEST(NodeParameters, DefaultsAreThoseOfTheDefaultPreset)
   EXPECT_TRUE(NodeParameters().lazy);
 }
 
+TEST(NodeParameters, Frames)
+{
+  EXPECT_EQ(NodeParameters().workspace_frame, "");
+  EXPECT_EQ(NodeParameters().target_frame, "");
+  XmlRpcValue parameters;
+  parameters["workspace_frame"] = "table";
+  parameters["target_frame"] = "base";
+  parameters["transform_timeout"] = 1;
+  const NodeParameters read = nodeParameters(parameters);
+  EXPECT_EQ(read.workspace_frame, "table");
+  EXPECT_EQ(read.target_frame, "base");
+  EXPECT_EQ(read.transform_timeout, 1.0);
+  EXPECT_TRUE(contains(refusal("", "target_frame", 3), "the name of a frame"));
+  EXPECT_TRUE(contains(refusal("", "transform_timeout", -0.1), "[0, 10] s"));
+}
+
 TEST(NodeParameters, EveryKindOfValueOverrulesThePreset)
 {
   XmlRpcValue parameters;
