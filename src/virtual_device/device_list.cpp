@@ -1,0 +1,101 @@
+#include "virtual_device/device_list.h"
+
+#include "simulation/scene_library.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+constexpr std::uint64_t kMostFrames = 1000;
+
+VirtualDeviceState deviceState(const std::string& word)
+{
+  if (word == "plugged")
+    return VirtualDeviceState::plugged;
+  if (word == "unplugged")
+    return VirtualDeviceState::unplugged;
+  if (word == "stalled")
+    return VirtualDeviceState::stalled;
+  if (word == "corrupt")
+    return VirtualDeviceState::corrupt;
+  throw std::invalid_argument("state is '" + word + "'; it must be one of plugged, unplugged, stalled, corrupt");
+}
+
+void checkScene(const std::string& name)
+{
+  const auto& library = sceneLibrary();
+  if (std::none_of(library.begin(), library.end(), [&](const NamedScene& scene) { return scene.name == name; }))
+    throw std::invalid_argument("there is no scene '" + name + "'");
+}
+
+VirtualDeviceSettings parseDevice(const YAML::Node& node)
+{
+  VirtualDeviceSettings device;
+  for (const auto& entry : node) {
+    const auto key = entry.first.as<std::string>();
+    if (key == "uri")
+      device.uri = entry.second.as<std::string>();
+    else if (key == "serial")
+      device.serial = entry.second.as<std::string>();
+    else if (key == "scene")
+      device.scene.scene = entry.second.as<std::string>();
+    else if (key == "seed")
+      device.scene.seed = entry.second.as<std::uint64_t>();
+    else if (key == "noise_seed")
+      device.scene.noise_seed = entry.second.as<std::uint64_t>();
+    else if (key == "turn_deg")
+      device.scene.turn_deg = entry.second.as<double>();
+    else if (key == "frames")
+      device.scene.frames = entry.second.as<std::uint64_t>();
+    else if (key == "state")
+      device.state = deviceState(entry.second.as<std::string>());
+    else
+      throw std::invalid_argument("unknown key '" + key + "'");
+  }
+  if (device.uri.empty())
+    throw std::invalid_argument("a device has no uri");
+  if (device.serial.empty())
+    device.serial = device.uri;
+  if (device.scene.frames < 1 || device.scene.frames > kMostFrames)
+    throw std::invalid_argument("frames must be in 1 to " + std::to_string(kMostFrames));
+  checkScene(device.scene.scene);
+  return device;
+}
+
+}  // namespace
+
+bool operator==(const VirtualScene& a, const VirtualScene& b)
+{
+  const auto members = [](const VirtualScene& s) {
+    return std::tie(s.scene, s.seed, s.noise_seed, s.turn_deg, s.frames);
+  };
+  return members(a) == members(b);
+}
+
+std::vector<VirtualDeviceSettings> parseDeviceList(const std::string& yaml)
+{
+  std::vector<VirtualDeviceSettings> devices;
+  try {
+    const YAML::Node list = YAML::Load(yaml);
+    if (!list.IsSequence())
+      throw std::invalid_argument("not a list of devices");
+    for (const YAML::Node& node : list) {
+      const VirtualDeviceSettings device = parseDevice(node);
+      if (std::any_of(devices.begin(), devices.end(), [&](const auto& other) { return other.uri == device.uri; }))
+        throw std::invalid_argument("the uri '" + device.uri + "' comes twice");
+      devices.push_back(device);
+    }
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(error.what());
+  }
+  return devices;
+}
+
+}  // namespace grasp_affordances
