@@ -15,21 +15,6 @@ namespace grasp_affordances
 namespace
 {
 
-sensor_msgs::CameraInfoPtr cameraInfoMessage(const XtionModel& model, const std_msgs::Header& header)
-{
-  const PinholeIntrinsics& camera = model.intrinsics;
-  auto message = boost::make_shared<sensor_msgs::CameraInfo>();
-  message->header = header;
-  message->width = model.width;
-  message->height = model.height;
-  message->distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
-  message->D.assign(5, 0.0);
-  message->K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-  message->R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  message->P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return message;
-}
-
 sensor_msgs::ImagePtr depthMessage(const Frame& frame, const std_msgs::Header& header)
 {
   auto message = boost::make_shared<sensor_msgs::Image>();
@@ -71,9 +56,25 @@ void restampOrReplace(boost::shared_ptr<Message>& message, const ros::Time& stam
 
 }  // namespace
 
+sensor_msgs::CameraInfoPtr cameraInfoMessage(const PinholeIntrinsics& camera, std::uint32_t width, std::uint32_t height,
+                                             const std_msgs::Header& header)
+{
+  auto message = boost::make_shared<sensor_msgs::CameraInfo>();
+  message->header = header;
+  message->width = width;
+  message->height = height;
+  message->distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
+  message->D.assign(5, 0.0);
+  message->K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+  message->R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  message->P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return message;
+}
+
 FrameMessages frameMessages(const Frame& frame, const XtionModel& model, const std_msgs::Header& header)
 {
-  return {cameraInfoMessage(model, header), depthMessage(frame, header), pointsMessage(frame.cloud, header)};
+  return {cameraInfoMessage(model.intrinsics, model.width, model.height, header), depthMessage(frame, header),
+          pointsMessage(frame.cloud, header)};
 }
 
 void restamp(FrameMessages& messages, const ros::Time& stamp)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "grasp_affordances/cloud.h"
 #include "simulation/sensor.h"
 
 #include <ros/time.h>
@@ -8,8 +9,14 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 
+#include <cstdint>
+
 namespace grasp_affordances
 {
+
+/// A camera without distortion.
+sensor_msgs::CameraInfoPtr cameraInfoMessage(const PinholeIntrinsics& camera, std::uint32_t width, std::uint32_t height,
+                                             const std_msgs::Header& header);
 
 /// What a simulated camera publishes for one frame.
 struct FrameMessages

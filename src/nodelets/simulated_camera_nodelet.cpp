@@ -1,4 +1,5 @@
 #include "grasp_affordances/config.h"
+#include "nodelets/camera_frames.h"
 #include "nodelets/camera_messages.h"
 #include "nodelets/newest_only_worker.h"
 #include "nodelets/simulated_camera_parameters.h"
@@ -32,30 +33,6 @@ namespace grasp_affordances
 {
 namespace
 {
-
-/// The frames of an Xtion as openni2_launch publishes them: x forward, y left, z up, with the depth camera 2 cm to the
-/// right of the middle. Optical frames: x right, y down, z forward.
-const Eigen::Isometry3d kT_link_depth(Eigen::Translation3d(0.0, -0.02, 0.0));
-const Eigen::Isometry3d kT_depth_optical(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5));
-
-geometry_msgs::TransformStamped transformMessage(const std::string& parent, const Eigen::Isometry3d& T_parent_child,
-                                                 const std::string& child, const ros::Time& stamp)
-{
-  const Eigen::Vector3d translation = T_parent_child.translation();
-  const Eigen::Quaterniond rotation(T_parent_child.linear());
-  geometry_msgs::TransformStamped message;
-  message.header.frame_id = parent;
-  message.header.stamp = stamp;
-  message.child_frame_id = child;
-  message.transform.translation.x = translation.x();
-  message.transform.translation.y = translation.y();
-  message.transform.translation.z = translation.z();
-  message.transform.rotation.x = rotation.x();
-  message.transform.rotation.y = rotation.y();
-  message.transform.rotation.z = rotation.z();
-  message.transform.rotation.w = rotation.w();
-  return message;
-}
 
 /// A frame that is asked for.
 struct Shot
@@ -130,7 +107,7 @@ void SimulatedCameraNodelet::onInit()
     throw;
   }
   link_frame_ = parameters_.camera + "_link";
-  optical_frame_ = parameters_.camera + "_depth_optical_frame";
+  optical_frame_ = opticalFrame(parameters_.camera, XtionCamera::depth);
   if (parameters_.motion == "orbit") {
     orbit_.emplace(view_, kDegree * parameters_.amplitude_deg, parameters_.period_s);
   }
@@ -149,10 +126,7 @@ void SimulatedCameraNodelet::onInit()
 void SimulatedCameraNodelet::publishFixedTransforms()
 {
   const ros::Time now = ros::Time::now();
-  const std::string depth_frame = parameters_.camera + "_depth_frame";
-  std::vector<geometry_msgs::TransformStamped> fixed = {
-      transformMessage(link_frame_, kT_link_depth, depth_frame, now),
-      transformMessage(depth_frame, kT_depth_optical, optical_frame_, now)};
+  std::vector<geometry_msgs::TransformStamped> fixed = opticalTransforms(parameters_.camera, XtionCamera::depth, now);
   if (orbit_) {
     transforms_ = std::make_unique<tf2_ros::TransformBroadcaster>();
   } else {
@@ -164,7 +138,7 @@ void SimulatedCameraNodelet::publishFixedTransforms()
 
 geometry_msgs::TransformStamped SimulatedCameraNodelet::linkTransform(const Shot& shot) const
 {
-  const Eigen::Isometry3d T_world_link = cameraPose(shot) * (kT_link_depth * kT_depth_optical).inverse();
+  const Eigen::Isometry3d T_world_link = cameraPose(shot) * opticalPoseInLink(XtionCamera::depth).inverse();
   return transformMessage(parameters_.world_frame, T_world_link, link_frame_, shot.stamp);
 }
 

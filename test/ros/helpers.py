@@ -1,6 +1,7 @@
 """What the rostests share: processes, simulated scenes, clouds made by hand, and what arrives on topics."""
 
 import atexit
+import io
 import os
 import shutil
 import signal
@@ -37,13 +38,26 @@ def scene(name):
     return path
 
 
+def recordings():
+    """Folder of the recorded clouds, or None where they are absent."""
+    folder = os.environ.get('GRASP_AFFORDANCES_DATA')
+    if folder is not None:
+        if not os.path.isdir(folder):
+            raise AssertionError('GRASP_AFFORDANCES_DATA names no folder: ' + folder)
+        return folder
+    folder = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..', '..', 'shared', 'data')
+    return folder if os.path.isdir(folder) else None
+
+
 class Process:
     """A node in a process of its own. Its output is kept; leaving the block interrupts it and waits for its end."""
 
-    def __init__(self, package, name, *arguments):
+    def __init__(self, package, name, *arguments, environment=None):
+        self._start([executable(package, name), *arguments], environment)
+
+    def _start(self, command, environment=None):
         self._output = tempfile.TemporaryFile()
-        self._process = subprocess.Popen([executable(package, name)] + list(arguments), stdout=self._output,
-                                         stderr=subprocess.STDOUT)
+        self._process = subprocess.Popen(command, stdout=self._output, stderr=subprocess.STDOUT, env=environment)
 
     def __enter__(self):
         return self
@@ -70,9 +84,16 @@ class Process:
         return self._output.read().decode()
 
 
-def manager():
+class Launch(Process):
+    """One of our launch files."""
+
+    def __init__(self, file, *arguments, environment=None):
+        self._start(['roslaunch', 'grasp_affordances', file, *arguments], environment)
+
+
+def manager(environment=None):
     """A nodelet manager of that name."""
-    return Process('nodelet', 'nodelet', 'manager', '__name:=manager')
+    return Process('nodelet', 'nodelet', 'manager', '__name:=manager', environment=environment)
 
 
 def publisher(file, rate=0, frame='camera_depth_optical_frame'):
@@ -136,3 +157,24 @@ def cloud(width=8, height=6, frame='by_hand'):
                       for i, name in enumerate('xyz')]
     message.data = struct.pack('<f', float('nan')) * (3 * width * height)
     return message
+
+
+def serialized(message):
+    """Its bytes: unlike the message they are equal to others where both hold NaN."""
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+def coordinates(cloud):
+    """(x, y, z) of every point, row-major."""
+    offsets = {field.name: field.offset for field in cloud.fields}
+    assert (offsets['x'], offsets['y'], offsets['z']) == (0, 4, 8)
+    return list(struct.iter_unpack('<fff%dx' % (cloud.point_step - 12), cloud.data))
+
+
+def rotated(q, v):
+    """Vector v turned by the quaternion q."""
+    tx, ty, tz = (2 * (q.y * v[2] - q.z * v[1]), 2 * (q.z * v[0] - q.x * v[2]), 2 * (q.x * v[1] - q.y * v[0]))
+    return (v[0] + q.w * tx + q.y * tz - q.z * ty, v[1] + q.w * ty + q.z * tx - q.x * tz,
+            v[2] + q.w * tz + q.x * ty - q.y * tx)

@@ -15,7 +15,7 @@ import tf2_ros
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 
 from grasp_affordances.msg import CylindricalShellArray
-from helpers import ABNORMAL_ENDS, Listener, Process, manager, publisher, scene, wait_until
+from helpers import ABNORMAL_ENDS, Listener, Process, coordinates, manager, publisher, rotated, scene, wait_until
 
 NODELET = 'grasp_affordances/SimulatedCameraNodelet'
 
@@ -36,13 +36,6 @@ def advertised(topic):
     return topic in (name for name, _ in rospy.get_published_topics())
 
 
-def coordinates(cloud):
-    """(x, y, z) of every point, row-major."""
-    offsets = {field.name: field.offset for field in cloud.fields}
-    assert (offsets['x'], offsets['y'], offsets['z']) == (0, 4, 8)
-    return list(struct.iter_unpack('<fff%dx' % (cloud.point_step - 12), cloud.data))
-
-
 def single(value):
     """Rounded to single precision."""
     return struct.unpack('f', struct.pack('f', value))[0]
@@ -51,13 +44,6 @@ def single(value):
 def measured_bytes(cloud):
     """Coordinates of the measured points, bit by bit."""
     return [struct.pack('<fff', *point) for point in coordinates(cloud) if not math.isnan(point[2])]
-
-
-def rotated(q, v):
-    """Vector v turned by the quaternion q."""
-    tx, ty, tz = (2 * (q.y * v[2] - q.z * v[1]), 2 * (q.z * v[0] - q.x * v[2]), 2 * (q.x * v[1] - q.y * v[0]))
-    return (v[0] + q.w * tx + q.y * tz - q.z * ty, v[1] + q.w * ty + q.z * tx - q.x * tz,
-            v[2] + q.w * tz + q.x * ty - q.y * tx)
 
 
 class SimulatedCamera(unittest.TestCase):

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <string>
+
+namespace grasp_affordances
+{
+
+enum class DeviceState
+{
+  waiting,       ///< no such device yet, or it cannot be opened
+  connected,     ///< frames come, or nobody wants any
+  stalled,       ///< frames do not come; until one comes
+  disconnected,  ///< it was there, and was pulled out
+  ended          ///< a recording is over
+};
+
+/// The word that stands for a state.
+const char* deviceStateWord(DeviceState state);
+
+/// The state of a camera and its streams on /diagnostics. Not safe to use from several threads.
+class DeviceDiagnostics
+{
+public:
+  /// What is counted of a stream, since the node began.
+  struct Stream
+  {
+    std::string name;
+    std::uint64_t frames = 0;
+    std::uint64_t corrupt = 0;  // frames that were skipped
+
+    std::uint64_t reported_frames = 0;
+    std::uint64_t reported_corrupt = 0;
+  };
+
+  /// @param name of the node, full: what the name of the status begins with
+  DeviceDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh, const std::string& name);
+
+  /// Valid as long as this object.
+  Stream& addStream(const std::string& name);
+
+  void setDevice(const std::string& uri, const std::string& serial);
+  const std::string& uri() const { return uri_; }  ///< of the last device
+
+  /// A change of the state is published at once. Returns whether there was one.
+  bool setState(DeviceState state, const std::string& message);
+  DeviceState state() const { return state_; }
+
+  /// Publishes when the period has passed; to be called often.
+  void update() { updater_.update(); }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  diagnostic_updater::Updater updater_;
+  std::deque<Stream> streams_;
+  DeviceState state_ = DeviceState::waiting;
+  std::string message_ = "not opened yet";
+  std::string uri_;
+  std::string serial_;
+  Clock::time_point reported_ = Clock::now();
+};
+
+}  // namespace grasp_affordances
