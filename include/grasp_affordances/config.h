@@ -81,6 +81,7 @@ struct ShellConfig
   double min_fill = 0.65;            ///< share of the inner radius that the surface reaches all along a measured extent
   double depth_error = 0.006;        ///< m at a depth of 1 m, growing with its square: by so much it may fall short
   bool recenter = true;              ///< fit the cylinder anew to the points inside a shell, and search again
+  bool straighten = true;         ///< with several views, where there is no shell: search again about a straighter axis
   bool continue_surfaces = true;  ///< surfaces seen on both sides of a shadow go on through it, and block a gap there
   bool require_observed_gap = true;  ///< require that the sensor saw through a share of the gap
   double min_observed_free = 0.25;   ///< that share

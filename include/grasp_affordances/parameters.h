@@ -88,6 +88,8 @@ void visitParameters(ConfigT& c, Visitor&& visit)
   visit("shell/depth_error", c.shell.depth_error, Real{0.0, 0.1}, "m",
         "at a depth of 1 m, growing with its square: by so much the surface may fall short of that");
   visit("shell/recenter", c.shell.recenter, "fit the cylinder anew to the points inside a shell, and search again");
+  visit("shell/straighten", c.shell.straighten,
+        "with several views, where no shell is found: search again about the line through the middles of slices");
   visit("shell/continue_surfaces", c.shell.continue_surfaces,
         "surfaces seen on both sides of a shadow go on through it, and block a gap there");
   visit("shell/require_observed_gap", c.shell.require_observed_gap,

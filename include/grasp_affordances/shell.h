@@ -41,6 +41,7 @@ struct ShellSearchResult
     none
   };
   Status status = none;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();     ///< unit
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< m, on the axis, in the middle of the length
   double inner_radius = 0.0;                           ///< m
   double length = 0.0;                                 ///< m
@@ -80,6 +81,10 @@ struct ShellSurroundings
 ///
 /// With `recenter` the cylinder is fitted anew to the points inside the shell that was found, and the search repeated:
 /// the neighborhood may show too short an arc of the surface, or something else beside it, to place the axis well.
+///
+/// With `straighten` and several views, where no shell is found: a line through the middles of slices about the axis is
+/// a better one, since all sides of the surface are seen, and the search is repeated about it. One view may find a
+/// shell about an axis that is off by some degrees; several also see what such a shell would touch.
 ///
 /// Keeps its working memory: one instance per thread.
 class ShellSearch

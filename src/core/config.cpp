@@ -61,6 +61,7 @@ Config paperConfig()
   config.estimation.reject_concave = false;
   config.shell.measure_length = false;
   config.shell.recenter = false;
+  config.shell.straighten = false;
   config.shell.min_coverage = 0.0;
   config.shell.continue_surfaces = false;
   config.shell.require_observed_gap = false;

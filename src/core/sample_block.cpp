@@ -251,9 +251,9 @@ std::optional<Outcome> SampleBlock::fitShell(Sample& sample, const PreparedViews
   Shell& shell = sample.result->shell;
   shell.curvature = sample.curvature;
   shell.point_index = views.firstPoint(view) + sample.point.point;
-  shell.axis = sample.axis;
+  shell.axis = withLargestComponentPositive(found.axis);
   shell.centroid = found.centroid;
-  shell.normal = normalTowards(views[view].sensor, found.centroid, sample.axis);
+  shell.normal = normalTowards(views[view].sensor, found.centroid, shell.axis);
   shell.inner_radius = found.inner_radius;
   shell.thickness = config.hand.finger_thickness;
   shell.length = found.length;

@@ -151,6 +151,9 @@ public:
   /// The cylinder through the points inside the shell that was found last.
   std::optional<FittedCylinder> refit() const;
 
+  /// A cylinder of another direction, through what the hand's reach about the axis holds over the clearance length.
+  std::optional<FittedCylinder> straightened() const;
+
 private:
   static const std::vector<OtherView>& otherViews(const ShellSurroundings& surroundings);
   void lookAlong(const FittedCylinder& cylinder);
@@ -238,6 +241,7 @@ ShellSearchResult DirectedSearch::about(const FittedCylinder& cylinder)
       }
     }
     result.status = ShellSearchResult::found;
+    result.axis = cylinder.axis;
     result.centroid = cylinder.origin + (extent.begin + extent.end) / 2 * cylinder.axis;
     result.inner_radius = radius;
     result.length = extent.length();
@@ -274,6 +278,47 @@ std::optional<FittedCylinder> DirectedSearch::refit() const
       room >= 0.0 ? hand_.capture_radius - std::floor(room / config_.radius_step) * config_.radius_step * kRounding
                   : circle->radius;
   return refitted;
+}
+
+/// A line through the middles of what each slice holds within the hand's reach, weighted by the points.
+std::optional<FittedCylinder> DirectedSearch::straightened() const
+{
+  if (!frame_) {
+    return std::nullopt;
+  }
+  ShellBounds shell = boundsOf(hand_.capture_radius);
+  Eigen::Matrix2d products = Eigen::Matrix2d::Zero(), middles = Eigen::Matrix2d::Zero();
+  double points = 0.0, radius = 0.0;
+  for (std::size_t slice = 0; slice < slices_.count; ++slice) {
+    shell.begin = slices_.beginOf(slice);
+    shell.end = slices_.endOf(slice);
+    const double along = (shell.begin + shell.end) / 2;
+    if (std::abs(along) > config_.clearance_length / 2) {
+      continue;
+    }
+    PlaneMomentParts parts;
+    visitPoints(slice, shell.reach, [&](const AxisPoints& view) { addMoments(view, shell, parts); });
+    const PlaneMoments moments = planeMoments(parts);
+    const auto circle = fitCircleTaubin(moments);
+    if (circle && circle->radius <= hand_.capture_radius) {
+      const Eigen::Vector2d row(1.0, along);
+      products += moments.count * row * row.transpose();
+      middles += moments.count * circle->center * row.transpose();
+      points += moments.count;
+      radius += moments.count * circle->radius;
+    }
+  }
+  const double spread = points * config_.clearance_length;
+  if (!(products.determinant() > 1e-3 * spread * spread)) {
+    return std::nullopt;
+  }
+  const Eigen::Matrix2d line = middles * products.inverse();  // columns: at the sample, and slopes
+  const Eigen::Vector3d first = asVector(frame_->first), second = asVector(frame_->second);
+  FittedCylinder result;
+  result.axis = (asVector(frame_->axis) + line(0, 1) * first + line(1, 1) * second).normalized();
+  result.origin = asVector(frame_->origin) + line(0, 0) * first + line(1, 0) * second;
+  result.radius = radius / points;
+  return result;
 }
 
 ShellBounds DirectedSearch::boundsOf(double inner_radius) const
@@ -438,13 +483,25 @@ ShellSearchResult ShellSearch::search(const ShellSurroundings& surroundings, con
   if (memory_->views.size() < views) {
     memory_->views.resize(views);
   }
+  const auto searchAbout = [&](const FittedCylinder& start, DirectedSearch& search) {
+    const ShellSearchResult found = search.about(start);
+    if (!config.recenter || found.status != ShellSearchResult::found) {
+      return found;
+    }
+    const auto refitted = search.refit();
+    return refitted ? search.about(*refitted) : found;
+  };
   DirectedSearch search(surroundings, hand, config, memory_->views.data(), memory_->counts);
-  const ShellSearchResult found = search.about(cylinder);
-  if (!config.recenter || found.status != ShellSearchResult::found) {
+  const ShellSearchResult found = searchAbout(cylinder, search);
+  if (!config.straighten || views == 1 || found.status == ShellSearchResult::found) {
     return found;
   }
-  const auto refitted = search.refit();
-  return refitted ? search.about(*refitted) : found;
+  const auto straight = search.straightened();
+  if (!straight) {
+    return found;
+  }
+  DirectedSearch again(surroundings, hand, config, memory_->views.data(), memory_->counts);
+  return searchAbout(*straight, again);
 }
 
 }  // namespace grasp_affordances

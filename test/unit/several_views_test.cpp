@@ -332,6 +332,27 @@ TEST(SeveralViews, GoOnWithoutThoseThatMeasuredNothing)
   EXPECT_EQ(localizeViews(config, {}).sampled, 0U);
 }
 
+TEST(SeveralViews, FindANeckThatHasLittleToSpare)
+{
+  View view = post(false);
+  view.scene.beginObject("collars");
+  for (const double z : {0.065, 0.235}) {
+    view.scene.add(Cylinder{0.035, 0.13}, Pose(Eigen::Translation3d(0.0, 0.0, z)));  // which leaves 4 cm free
+  }
+  const SeenScene scene(view, {0.0, 120.0, -120.0});
+  Config config = aroundPost();
+  config.shell.straighten = false;
+  const std::size_t before = localizeViews(config, scene.views(3)).shells.size();
+  config.shell.straighten = true;
+  const Localization straight = localizeViews(config, scene.views(3));
+  EXPECT_GT(straight.shells.size(), before + before / 2 + 50);
+  for (const Shell& shell : straight.shells) {
+    EXPECT_LT((shell.centroid - Eigen::Vector3d(0.0, 0.0, 0.15)).norm(), 0.01);
+    EXPECT_LT(lineAngle(shell.axis, Eigen::Vector3d::UnitZ()), 0.25);
+    EXPECT_NEAR(shell.axis.dot(shell.normal), 0.0, 1e-9);
+  }
+}
+
 TEST(SeveralViews, SayByHowMuchTheirPosesAreWrong)
 {
   const SeenScene scene(makeScene("kitchen1", 1), {0.0, 30.0, -30.0});
