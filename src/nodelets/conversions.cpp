@@ -86,6 +86,7 @@ LocalizationStatistics statisticsMessage(const Localization& localization, const
   message.seed = config.sampling.seed;
   message.threads = localization.threads;
   message.points = localization.points;
+  message.view_disagreement = localization.view_disagreement;
   message.warnings = localization.warnings;
 
   message.sampled = localization.sampled;

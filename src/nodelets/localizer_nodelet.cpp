@@ -1,7 +1,7 @@
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/localizer.h"
 #include "grasp_affordances/point_cloud2.h"
-#include "nodelets/conversions.h"
+#include "nodelets/camera_info_input.h"
 #include "nodelets/localization_outputs.h"
 #include "nodelets/newest_only_worker.h"
 #include "nodelets/parameters_ros.h"
@@ -11,7 +11,6 @@
 
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
-#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 #include <tf2/exceptions.h>
@@ -22,9 +21,6 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
-#include <mutex>
-#include <optional>
-#include <stdexcept>
 #include <string>
 
 namespace grasp_affordances
@@ -57,7 +53,6 @@ public:
   }
 
 private:
-  using Camera = sensor_msgs::CameraInfoConstPtr;
   using Points = sensor_msgs::PointCloud2ConstPtr;
 
   struct Arrival
@@ -73,27 +68,22 @@ private:
   void process(const Arrival& arrival);
   void localize(const Arrival& arrival);
   Eigen::Isometry3d transform(const std::string& frame, const std_msgs::Header& header);
-  std::optional<PinholeIntrinsics> knownIntrinsics(const Cloud& cloud);
 
   NodeParameters parameters_;
   LocalizationOutputs outputs_;
   ros::WallTimer clock_complaint_;
   std::unique_ptr<Transforms> transforms_;  // null where no parameter names a frame
   ros::Subscriber points_;
-  ros::Subscriber camera_info_;
+  CameraInfoInput camera_info_;
 
   // Of the callback for clouds.
   TimeJumps time_jumps_;
   Throttle reported_jumps_;
 
-  std::mutex camera_mutex_;
-  Camera camera_;  // the latest, null before the first
-
   // Of the worker's thread.
   std::unique_ptr<Localizer> localizer_;
   Cloud cloud_;
   Localization localization_;
-  Throttle ignored_cameras_;
 
   std::unique_ptr<NewestOnlyWorker<Arrival>> worker_;
 };
@@ -122,11 +112,7 @@ void LocalizerNodelet::subscribe()
   ros::NodeHandle& nh = getNodeHandle();
   // Absolute names: nodelet's node handle takes the root namespace for that of the manager.
   const std::string parent = ros::names::parentNamespace(getName());
-  camera_info_ = nh.subscribe<sensor_msgs::CameraInfo>(ros::names::append(parent, "camera_info"), 1,
-                                                       [this](const Camera& message) {
-                                                         const std::lock_guard<std::mutex> lock(camera_mutex_);
-                                                         camera_ = message;
-                                                       });
+  camera_info_.subscribe(nh, ros::names::append(parent, "camera_info"));
   points_ = nh.subscribe<sensor_msgs::PointCloud2>(ros::names::append(parent, "points"), kSubscriberQueue,
                                                    [this](const Points& message) { receive(message); });
 }
@@ -134,7 +120,7 @@ void LocalizerNodelet::subscribe()
 void LocalizerNodelet::unsubscribe()
 {
   points_.shutdown();
-  camera_info_.shutdown();
+  camera_info_.unsubscribe();
 }
 
 void LocalizerNodelet::receive(const Points& message)
@@ -166,7 +152,7 @@ void LocalizerNodelet::localize(const Arrival& arrival)
 {
   std_msgs::Header header = arrival.message->header;
   cloudFromPointCloud2(*arrival.message, cloud_);
-  cloud_.intrinsics = knownIntrinsics(cloud_);
+  cloud_.intrinsics = camera_info_.intrinsics(cloud_, getName());
   const Eigen::Isometry3d T_workspace_cloud = transform(parameters_.workspace_frame, header);
   const Eigen::Isometry3d T_target_cloud = transform(parameters_.target_frame, header);
 
@@ -182,31 +168,11 @@ void LocalizerNodelet::localize(const Arrival& arrival)
 
 Eigen::Isometry3d LocalizerNodelet::transform(const std::string& frame, const std_msgs::Header& header)
 {
-  if (frame.empty() || frame == header.frame_id) {
+  if (frame.empty()) {
     return Eigen::Isometry3d::Identity();
   }
   return transforms_->lookup(frame, header.frame_id, header.stamp,
                              std::chrono::duration<double>(parameters_.transform_timeout));
-}
-
-std::optional<PinholeIntrinsics> LocalizerNodelet::knownIntrinsics(const Cloud& cloud)
-{
-  Camera camera;
-  {
-    const std::lock_guard<std::mutex> lock(camera_mutex_);
-    camera = camera_;
-  }
-  if (!camera || !cloud.organized()) {
-    return std::nullopt;
-  }
-  try {
-    return intrinsicsFromCameraInfo(*camera, cloud.width, cloud.height);
-  } catch (const std::invalid_argument& error) {
-    if (ignored_cameras_.due()) {
-      NODELET_WARN_STREAM("camera_info is ignored: " << error.what());
-    }
-    return std::nullopt;
-  }
 }
 
 }  // namespace grasp_affordances

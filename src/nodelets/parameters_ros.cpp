@@ -1,6 +1,7 @@
 #include "nodelets/parameters_ros.h"
 
 #include "grasp_affordances/parameters.h"
+#include "nodelets/cloud_synchronizer.h"
 #include "nodelets/parameter_reader.h"
 
 #include <string>
@@ -10,9 +11,8 @@ namespace grasp_affordances
 namespace
 {
 
-NodeParameters nodeParameters(ParameterReader read)
+void readNodeParameters(ParameterReader& read, NodeParameters& result)
 {
-  NodeParameters result;
   std::string preset = result.config.preset;
   read("preset", preset, "the name of a preset");
   result.config = presetConfig(preset);
@@ -21,8 +21,29 @@ NodeParameters nodeParameters(ParameterReader read)
   read("workspace_frame", result.workspace_frame, "the name of a frame");
   read("target_frame", result.target_frame, "the name of a frame");
   read("transform_timeout", result.transform_timeout, Range<double>{0.0, 10.0}, "s", "");
+}
+
+NodeParameters nodeParameters(ParameterReader read)
+{
+  NodeParameters result;
+  readNodeParameters(read, result);
   read.refuseRemaining();
   validate(result.config);
+  return result;
+}
+
+MultiCameraParameters multiCameraParameters(ParameterReader read)
+{
+  MultiCameraParameters result;
+  readNodeParameters(read, result.node);
+  read("views", result.views, Range<std::uint32_t>{2, CloudSynchronizer::kMostViews}, "", "");
+  read("sync_slop", result.sync_slop, Range<double>{0.0, 10.0}, "s", "");
+  read.refuseRemaining();
+  validate(result.node.config);
+  if (result.node.target_frame.empty()) {
+    throw ParameterError(
+        "parameter ~target_frame is not given; it must be the name of the frame that the clouds are brought into");
+  }
   return result;
 }
 
@@ -36,6 +57,16 @@ NodeParameters nodeParameters(const XmlRpc::XmlRpcValue& parameters)
 NodeParameters nodeParameters(const ros::NodeHandle& private_node_handle)
 {
   return nodeParameters(ParameterReader(private_node_handle));
+}
+
+MultiCameraParameters multiCameraParameters(const XmlRpc::XmlRpcValue& parameters)
+{
+  return multiCameraParameters(ParameterReader(parameters));
+}
+
+MultiCameraParameters multiCameraParameters(const ros::NodeHandle& private_node_handle)
+{
+  return multiCameraParameters(ParameterReader(private_node_handle));
 }
 
 }  // namespace grasp_affordances

@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <cstdint>
 #include <string>
 
 namespace grasp_affordances
@@ -28,5 +29,18 @@ NodeParameters nodeParameters(const XmlRpc::XmlRpcValue& parameters);
 
 /// As above, from the parameter server.
 NodeParameters nodeParameters(const ros::NodeHandle& private_node_handle);
+
+/// Everything that a node with several cameras is told.
+struct MultiCameraParameters
+{
+  NodeParameters node;       ///< `target_frame` is the frame that the clouds are brought into: it must be given, and is
+                             ///< that of the box in `config`, too, where no other is
+  std::uint32_t views = 2;   ///< cameras
+  double sync_slop = 0.035;  ///< s by which the stamps of the clouds of one moment may differ
+};
+
+/// As nodeParameters().
+MultiCameraParameters multiCameraParameters(const XmlRpc::XmlRpcValue& parameters);
+MultiCameraParameters multiCameraParameters(const ros::NodeHandle& private_node_handle);
 
 }  // namespace grasp_affordances

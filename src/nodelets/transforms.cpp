@@ -40,6 +40,9 @@ Eigen::Isometry3d Transforms::lookup(const std::string& target_frame, const std:
 {
   const std::string target = frameName(target_frame);
   const std::string source = frameName(source_frame);
+  if (target == source) {
+    return Eigen::Isometry3d::Identity();
+  }
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait_for(lock, timeout, [&] { return closed_ || buffer_.canTransform(target, source, stamp); });
   return tf2::transformToEigen(buffer_.lookupTransform(target, source, stamp));

@@ -33,7 +33,8 @@ public:
   /// Subscribes; names are remapped as those of the node handle.
   explicit Transforms(ros::NodeHandle& node_handle);
 
-  /// The transform at the time of the stamp (zero: the latest), interpolated. Waits for it, by the wall clock.
+  /// The transform at the time of the stamp (zero: the latest), interpolated; of a frame to itself the identity. Waits
+  /// for it, by the wall clock.
   /// @throw tf2::TransformException, with the reason, where it has not arrived by the timeout or close().
   Eigen::Isometry3d lookup(const std::string& target_frame, const std::string& source_frame, const ros::Time& stamp,
                            std::chrono::duration<double> timeout);

@@ -77,6 +77,7 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   }
   localization.sampled = 145;
   localization.points = 1000;
+  localization.view_disagreement = 0.004;
   localization.threads = 3;
   localization.milliseconds.total = 1.5;
   localization.milliseconds.fit = 0.5;
@@ -91,6 +92,7 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   EXPECT_EQ(message.seed, 7U);
   EXPECT_EQ(message.threads, 3U);
   EXPECT_EQ(message.points, 1000U);
+  EXPECT_EQ(message.view_disagreement, 0.004);
   EXPECT_EQ(message.sampled, 145U);
   EXPECT_EQ(message.too_few_points, 10U);
   EXPECT_EQ(message.degenerate, 11U);

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <xmlrpcpp/XmlRpcValue.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 namespace grasp_affordances
@@ -60,6 +62,53 @@ TEST(NodeParameters, Frames)
   EXPECT_EQ(read.transform_timeout, 1.0);
   EXPECT_TRUE(contains(refusal("", "target_frame", 3), "the name of a frame"));
   EXPECT_TRUE(contains(refusal("", "transform_timeout", -0.1), "[0, 10] s"));
+}
+
+TEST(MultiCameraParameters, AreThoseOfANodeAndItsCameras)
+{
+  XmlRpcValue parameters;
+  parameters["target_frame"] = "table";
+  EXPECT_EQ(multiCameraParameters(parameters).views, MultiCameraParameters().views);
+  parameters["views"] = 3;
+  parameters["sync_slop"] = 0.01;
+  parameters["threads"] = 1;
+  const MultiCameraParameters read = multiCameraParameters(parameters);
+  EXPECT_EQ(read.views, 3U);
+  EXPECT_EQ(read.sync_slop, 0.01);
+  EXPECT_EQ(read.node.target_frame, "table");
+  EXPECT_EQ(read.node.config.threads, 1);
+}
+
+TEST(MultiCameraParameters, AreRefused)
+{
+  XmlRpcValue parameters;
+  const auto refusal = [&] {
+    try {
+      multiCameraParameters(parameters);
+    } catch (const ParameterError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  parameters["views"] = 2;
+  EXPECT_TRUE(contains(refusal(), "~target_frame is not given"));
+  parameters["target_frame"] = "table";
+  EXPECT_EQ(refusal(), "");
+  for (const int views : {1, 9}) {
+    parameters["views"] = views;
+    EXPECT_TRUE(contains(refusal(), "an integer in [2, 8]")) << views;
+  }
+  parameters["views"] = 2;
+  parameters["slop"] = 0.1;
+  EXPECT_TRUE(contains(refusal(), "unknown name"));
+}
+
+TEST(MultiCameraParameters, YamlFileHoldsTheDefaults)
+{
+  const YAML::Node yaml = YAML::LoadFile(std::string(GRASP_AFFORDANCES_SOURCE_DIR) + "/config/multi_camera.yaml");
+  EXPECT_EQ(yaml.size(), 2U);
+  EXPECT_EQ(yaml["views"].as<std::uint32_t>(), MultiCameraParameters().views);
+  EXPECT_EQ(yaml["sync_slop"].as<double>(), MultiCameraParameters().sync_slop);
 }
 
 TEST(NodeParameters, EveryKindOfValueOverrulesThePreset)

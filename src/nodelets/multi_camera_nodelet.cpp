@@ -1,0 +1,266 @@
+#include "grasp_affordances/cloud.h"
+#include "grasp_affordances/localizer.h"
+#include "grasp_affordances/point_cloud2.h"
+#include "nodelets/camera_info_input.h"
+#include "nodelets/cloud_synchronizer.h"
+#include "nodelets/localization_outputs.h"
+#include "nodelets/newest_only_worker.h"
+#include "nodelets/parameters_ros.h"
+#include "nodelets/ros_time.h"
+#include "nodelets/throttle.h"
+#include "nodelets/transforms.h"
+
+#include <nodelet/nodelet.h>
+#include <ros/ros.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+#include <tf2/exceptions.h>
+#include <Eigen/Geometry>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+// Clouds that arrive in one burst are told apart here and not in the subscriber's queue.
+constexpr std::uint32_t kSubscriberQueue = 5;
+constexpr double kSilence = 5.0;  // s of wall-clock time without clouds that belong together
+
+}  // namespace
+
+/// Localizes enveloping grasp affordances in what several cameras see at the same time, in a common frame: the newest
+/// set of clouds, one of each camera, whose stamps differ by little.
+///
+/// Subscribed: points_1, points_2, ... (sensor_msgs/PointCloud2), camera_info_1, ... (sensor_msgs/CameraInfo,
+/// optional); /tf and /tf_static, which must lead from the target frame to each cloud's at its stamp. Published, for
+/// every processed set, in the target frame and with the stamp of the newest cloud: see LocalizationOutputs.
+/// Parameters: see MultiCameraParameters.
+class MultiCameraNodelet : public nodelet::Nodelet
+{
+public:
+  ~MultiCameraNodelet() override
+  {
+    // In this order: no more clouds come in, then the last ones are finished while their publishers still exist.
+    outputs_.close();
+    if (transforms_) {
+      transforms_->close();
+    }
+    worker_.reset();
+  }
+
+private:
+  using Points = sensor_msgs::PointCloud2ConstPtr;
+
+  struct View
+  {
+    std::string points_topic, camera_info_topic;
+    ros::Subscriber points;
+    CameraInfoInput camera_info;
+
+    // Of the callbacks for clouds and of the timer, which take turns.
+    TimeJumps time_jumps;
+    Points newest;  // since the timer's last call
+
+    Cloud cloud;  // of the worker's thread
+  };
+
+  struct Arrival
+  {
+    CloudSynchronizer::Set clouds;
+    LocalizationOutputs::Clock::time_point time;
+  };
+
+  void onInit() override;
+  void nameTopics();
+  void subscribe();
+  void unsubscribe();
+  void receive(std::size_t view, const Points& message);
+  void startAgain(const ros::Time& stamp);
+  void complainOfSilence();
+  void process(const Arrival& arrival);
+  void localize(const Arrival& arrival);
+  void convert(const sensor_msgs::PointCloud2& message, View& view);
+
+  MultiCameraParameters parameters_;
+  LocalizationOutputs outputs_;
+  ros::WallTimer clock_complaint_;
+  std::unique_ptr<Transforms> transforms_;
+  std::deque<View> views_;
+  ros::WallTimer silence_;
+
+  // Of the callbacks for clouds and of the timer.
+  std::unique_ptr<CloudSynchronizer> synchronizer_;
+  bool any_set_ = false;  // since the timer's last call
+  Throttle reported_jumps_;
+
+  // Of the worker's thread.
+  std::unique_ptr<Localizer> localizer_;
+  std::vector<PosedCloud> posed_clouds_;
+  Localization localization_;
+
+  std::unique_ptr<NewestOnlyWorker<Arrival>> worker_;
+};
+
+void MultiCameraNodelet::onInit()
+{
+  ros::NodeHandle& private_nh = getPrivateNodeHandle();
+  try {
+    parameters_ = multiCameraParameters(private_nh);
+    localizer_ = std::make_unique<Localizer>(parameters_.node.config);
+  } catch (const ParameterError& error) {
+    NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
+    throw;
+  }
+  nameTopics();
+  posed_clouds_.resize(parameters_.views);
+  synchronizer_ = std::make_unique<CloudSynchronizer>(
+      parameters_.views, parameters_.sync_slop, [this](const CloudSynchronizer::Set& clouds) {
+        any_set_ = true;
+        outputs_.receive([&] { return worker_->put({clouds, LocalizationOutputs::Clock::now()}); });
+      });
+  clock_complaint_ = complainWithoutClock(getNodeHandle(), getName());
+  transforms_ = std::make_unique<Transforms>(getNodeHandle());
+  worker_ = std::make_unique<NewestOnlyWorker<Arrival>>([this](const Arrival& arrival) { process(arrival); });
+  outputs_.advertise(
+      private_nh, getName(), parameters_.node.lazy, [this] { subscribe(); }, [this] { unsubscribe(); });
+}
+
+void MultiCameraNodelet::nameTopics()
+{
+  // Absolute names: nodelet's node handle takes the root namespace for that of the manager.
+  const std::string parent = ros::names::parentNamespace(getName());
+  const auto topic = [&](const std::string& name) {
+    return getNodeHandle().resolveName(ros::names::append(parent, name));
+  };
+  for (std::uint32_t i = 1; i <= parameters_.views; ++i) {
+    View& view = views_.emplace_back();
+    view.points_topic = topic("points_" + std::to_string(i));
+    view.camera_info_topic = topic("camera_info_" + std::to_string(i));
+  }
+}
+
+void MultiCameraNodelet::subscribe()
+{
+  ros::NodeHandle& nh = getNodeHandle();
+  synchronizer_->restart();
+  any_set_ = false;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    views_[i].newest.reset();
+    views_[i].camera_info.subscribe(nh, views_[i].camera_info_topic);
+    views_[i].points = nh.subscribe<sensor_msgs::PointCloud2>(
+        views_[i].points_topic, kSubscriberQueue, [this, i](const Points& message) { receive(i, message); });
+  }
+  silence_ =
+      nh.createWallTimer(ros::WallDuration(kSilence), [this](const ros::WallTimerEvent&) { complainOfSilence(); });
+}
+
+void MultiCameraNodelet::unsubscribe()
+{
+  silence_.stop();
+  for (View& view : views_) {
+    view.points.shutdown();
+    view.camera_info.unsubscribe();
+  }
+}
+
+void MultiCameraNodelet::receive(std::size_t view, const Points& message)
+{
+  if (views_[view].time_jumps.wentBack(message->header.stamp)) {
+    startAgain(message->header.stamp);
+  }
+  views_[view].newest = message;
+  synchronizer_->add(view, message);
+}
+
+/// Once for all cameras: the first one whose time goes back speaks for the others.
+void MultiCameraNodelet::startAgain(const ros::Time& stamp)
+{
+  if (reported_jumps_.due()) {
+    NODELET_INFO_STREAM("time goes back to " << stamp);
+  }
+  for (View& view : views_) {
+    view.time_jumps = TimeJumps();
+  }
+  synchronizer_->restart();
+  transforms_->restart();
+}
+
+void MultiCameraNodelet::complainOfSilence()
+{
+  std::string silent;
+  ros::Time earliest = ros::TIME_MAX, latest;
+  for (View& view : views_) {
+    if (view.newest) {
+      earliest = std::min(earliest, view.newest->header.stamp);
+      latest = std::max(latest, view.newest->header.stamp);
+    } else {
+      silent += (silent.empty() ? "" : ", ") + view.points_topic;
+    }
+    view.newest.reset();
+  }
+  if (!silent.empty()) {
+    NODELET_WARN_STREAM("nothing is localized: no clouds arrive on " << silent);
+  } else if (!any_set_) {
+    NODELET_WARN_STREAM("nothing is localized: the stamps of the newest clouds differ by "
+                        << (latest - earliest).toSec() << " s, which is more than sync_slop, " << parameters_.sync_slop
+                        << " s");
+  }
+  any_set_ = false;
+}
+
+void MultiCameraNodelet::process(const Arrival& arrival)
+{
+  try {
+    localize(arrival);
+  } catch (const tf2::TransformException& error) {
+    outputs_.leaveUntransformed(error.what());
+  } catch (const std::exception& error) {  // CloudError, or no memory for what a cloud asks for
+    outputs_.reject(error.what());
+  }
+}
+
+void MultiCameraNodelet::localize(const Arrival& arrival)
+{
+  const NodeParameters& parameters = parameters_.node;
+  const std::chrono::duration<double> timeout(parameters.transform_timeout);
+  std_msgs::Header header;
+  header.frame_id = parameters.target_frame;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const sensor_msgs::PointCloud2& message = *arrival.clouds[i];
+    convert(message, views_[i]);
+    posed_clouds_[i] = {&views_[i].cloud,
+                        transforms_->lookup(header.frame_id, message.header.frame_id, message.header.stamp, timeout)};
+    header.stamp = std::max(header.stamp, message.header.stamp);
+  }
+  Eigen::Isometry3d T_workspace_target = Eigen::Isometry3d::Identity();
+  if (!parameters.workspace_frame.empty()) {
+    T_workspace_target = transforms_->lookup(parameters.workspace_frame, header.frame_id, header.stamp, timeout);
+  }
+  localizer_->localize(posed_clouds_, localization_, T_workspace_target);
+  outputs_.publish(localization_, localizer_->config(), header, arrival.time);
+}
+
+void MultiCameraNodelet::convert(const sensor_msgs::PointCloud2& message, View& view)
+{
+  try {
+    cloudFromPointCloud2(message, view.cloud);
+  } catch (const CloudError& error) {
+    throw CloudError(view.points_topic + ": " + error.what());
+  }
+  view.cloud.intrinsics = view.camera_info.intrinsics(view.cloud, getName());
+}
+
+}  // namespace grasp_affordances
+
+PLUGINLIB_EXPORT_CLASS(grasp_affordances::MultiCameraNodelet, nodelet::Nodelet)

@@ -1,0 +1,184 @@
+#!/usr/bin/python3
+"""Several cameras, localized in together: where shells are, and what is said of a silent or misplaced camera."""
+
+import copy
+import json
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
+from sensor_msgs.msg import PointCloud2
+from tf2_msgs.msg import TFMessage
+
+from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
+from helpers import ABNORMAL_ENDS, Launch, Listener, Process, executable, publisher, wait_until
+
+TURNS = (0, 60, -60)  # degrees, of the cameras about the table
+POINTS = 640 * 480
+
+
+class MultiCamera(Process):
+    """The node, and what it publishes."""
+
+    def __init__(self, views, *parameters):
+        if rospy.has_param('multi_camera'):
+            rospy.delete_param('multi_camera')
+        super().__init__('grasp_affordances', 'multi_camera_node', '_views:=%d' % views, *parameters)
+        self.shells = Listener('multi_camera/shells', CylindricalShellArray)
+        self.statistics = Listener('multi_camera/statistics', LocalizationStatistics)
+
+    def __exit__(self, *arguments):
+        self.shells.close()
+        self.statistics.close()
+        super().__exit__(*arguments)
+
+
+class Multiview(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix='grasp_affordances_views_')
+        cls.files = [os.path.join(cls.folder.name, '%d.pcd' % turn) for turn in TURNS]
+        cls.clouds = []
+        for number, (file, turn) in enumerate(zip(cls.files, TURNS), 1):
+            subprocess.run([executable('grasp_affordances', 'simulate'), '--scene', 'table', '--turn=%d' % turn,
+                            '--noise-seed', str(1000 * number), '--out', file],
+                           check=True, stdout=subprocess.DEVNULL, timeout=60)
+            with publisher(file, frame='camera_%d' % number):
+                listener = Listener('points', PointCloud2)
+                cls.clouds.append(listener.wait())
+                listener.close()
+        cls.publishers = [rospy.Publisher('points_%d' % number, PointCloud2, queue_size=3) for number in (1, 2, 3)]
+        cls.fixed = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
+        cls.poses = [cls.pose(number, view) for number, view in enumerate(cls.localize(*cls.files)['views'], 1)]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @staticmethod
+    def localize(*files):
+        """What the command line finds in several views."""
+        views = [argument for file in files for argument in ('--view', file)]
+        return json.loads(subprocess.run([executable('grasp_affordances', 'localize'), '--json', *views], check=True,
+                                         stdout=subprocess.PIPE, timeout=60).stdout)
+
+    @staticmethod
+    def pose(number, view):
+        result = TransformStamped(child_frame_id='camera_%d' % number)
+        result.header.frame_id = 'room'
+        result.transform.translation = Vector3(*view['translation'])
+        result.transform.rotation = Quaternion(*view['rotation'])
+        return result
+
+    def setUp(self):
+        wait_until(lambda: not any(p.get_num_connections() for p in (*self.publishers, self.fixed)), 'disconnection')
+        self.fixed.publish(self.poses)
+
+    def connect(self, views):
+        wait_until(lambda: all(p.get_num_connections() == 1 for p in self.publishers[:views]) and
+                   self.fixed.get_num_connections() == 1, 'connections')
+
+    def publish(self, views, stamp, offsets=(0.0, 0.004, 0.002)):
+        """One cloud of each of these cameras; returns the stamp of the newest."""
+        stamps = []
+        for view in views:
+            cloud = copy.copy(self.clouds[view])
+            cloud.header = copy.copy(cloud.header)
+            cloud.header.stamp = stamp + rospy.Duration(offsets[view])
+            stamps.append(cloud.header.stamp)
+            self.publishers[view].publish(cloud)
+        return max(stamps)
+
+    def check_against_command_line(self, views):
+        with MultiCamera(views, '_target_frame:=room') as node:
+            self.connect(views)
+            stamp = self.publish(range(views), rospy.Time.now())
+            message = node.shells.wait(lambda m: m.header.stamp == stamp)
+            statistics = node.statistics.wait(lambda m: m.header.stamp == stamp)
+        self.assertEqual(message.header.frame_id, 'room')
+        self.assertEqual(statistics.header.frame_id, 'room')
+        expected = self.localize(*self.files[:views])
+        by_point = {shell['point_index']: shell for shell in expected['shells']}
+        self.assertGreater(len(by_point), 100)
+        # Poses took another way: the last bits differ, and with them, rarely, where a sample ends.
+        shared = [shell for shell in message.shells if shell.point_index in by_point]
+        self.assertGreater(len(shared), 0.95 * max(len(by_point), len(message.shells)))
+        for shell in shared:
+            same = by_point[shell.point_index]
+            c = shell.centroid
+            self.assertLess(math.dist((c.x, c.y, c.z), same['centroid']), 0.002)
+            self.assertAlmostEqual(shell.inner_radius, same['inner_radius'], delta=0.0021)
+        self.assertEqual({shell.point_index // POINTS for shell in message.shells}, set(range(views)))
+        self.assertEqual(statistics.points, expected['points'])
+        self.assertAlmostEqual(statistics.view_disagreement, expected['view_disagreement'], delta=1e-4)
+        self.assertLess(statistics.view_disagreement, 0.01)
+
+    def test_two_cameras(self):
+        self.check_against_command_line(2)
+
+    def test_three_cameras(self):
+        self.check_against_command_line(3)
+
+    def test_wrong_extrinsics_are_reported(self):
+        poses = copy.deepcopy(self.poses)
+        poses[1].transform.translation.z += 0.03
+        self.fixed.publish(poses)
+        with MultiCamera(2, '_target_frame:=room') as node:
+            self.connect(2)
+            stamp = self.publish(range(2), rospy.Time.now())
+            statistics = node.statistics.wait(lambda m: m.header.stamp == stamp)
+            self.assertGreater(statistics.view_disagreement, 0.015)
+            self.assertTrue(any('view' in warning for warning in statistics.warnings), statistics.warnings)
+            wait_until(lambda: statistics.warnings[0] in node.output(), 'complaint')
+
+    def test_clouds_of_different_moments_are_not_put_together_and_time_may_start_again(self):
+        with MultiCamera(2, '_target_frame:=room', '_sync_slop:=0.03') as node:
+            self.connect(2)
+            start = rospy.Time.now()
+            late = (0.0, 0.04)
+            for i in range(3):
+                self.publish(range(2), start + rospy.Duration(i), late)
+            wait_until(lambda: 'more than sync_slop' in node.output(), 'complaint')
+            self.assertEqual(node.statistics.messages(), [])
+            stamp = self.publish(range(2), start - rospy.Duration(100))
+            self.assertEqual(node.statistics.wait().header.stamp, stamp)
+
+    def test_a_silent_camera_is_named(self):
+        with MultiCamera(3, '_target_frame:=room') as node:
+            self.connect(3)
+            self.publish((0, 2), rospy.Time.now())
+            wait_until(lambda: 'no clouds arrive on ' in node.output(), 'complaint')
+            self.assertRegex(node.output(), r'no clouds arrive on /points_2\b[^,]*$')
+            self.assertEqual(node.statistics.messages(), [])
+
+    def test_a_set_without_its_transforms_is_dropped_and_counted(self):
+        with MultiCamera(2, '_target_frame:=nowhere', '_transform_timeout:=0.05') as node:
+            self.connect(2)
+            self.publish(range(2), rospy.Time.now())
+            wait_until(lambda: 'want of a transform' in node.output(), 'complaint')
+            self.assertIn('nowhere', node.output())
+            self.assertEqual(node.interrupt(), 0)
+            for sign in ABNORMAL_ENDS:
+                self.assertNotIn(sign, node.output())
+
+    def test_needs_a_target_frame(self):
+        with MultiCamera(2) as node:
+            self.assertEqual(node.wait(15), 1)
+            self.assertIn('~target_frame', node.output())
+
+    def test_simulated_cameras(self):
+        with Launch('simulated_cameras.launch', 'frames_ahead:=2', 'rate:=5'):
+            shells = Listener('multi_camera/shells', CylindricalShellArray)
+            message = shells.wait(lambda m: len({shell.point_index // POINTS for shell in m.shells}) == 2)
+            shells.close()
+        self.assertEqual(message.header.frame_id, 'world')
+
+
+if __name__ == '__main__':
+    rospy.init_node('multiview_test')
+    rostest.rosrun('grasp_affordances', 'multiview', Multiview)
