@@ -76,7 +76,7 @@ struct Localization
   std::array<std::uint32_t, kOutcomes> counts{};  ///< indexed by Outcome
   StageTimes milliseconds;
   /// m, by which two views place the same surfaces differently, the largest over all pairs of views: a measure of how
-  /// wrong their relative poses are. NaN with fewer than two views, and where they see nothing in common.
+  /// wrong their relative poses are. NaN with fewer than two range images, and where they see nothing in common.
   double view_disagreement = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::string> warnings;  ///< one line each, about the cloud: what could not be used and why
 };

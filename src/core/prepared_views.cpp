@@ -67,11 +67,14 @@ void PreparedViews::joinPoints()
 {
   points_.clear();
   screened_.clear();
+  const bool screens = allHaveImages();  // otherwise what cannot be screened would hardly be sampled
   for (const View& view : views_) {
     const auto numbered = [&](std::uint32_t point) { return view.first_point + point; };
     const std::vector<std::uint32_t>&all = view.cloud->points(), &screened = view.cloud->screen.points();
     std::transform(all.begin(), all.end(), std::back_inserter(points_), numbered);
-    std::transform(screened.begin(), screened.end(), std::back_inserter(screened_), numbered);
+    if (screens) {
+      std::transform(screened.begin(), screened.end(), std::back_inserter(screened_), numbered);
+    }
   }
 }
 
@@ -214,9 +217,12 @@ float PreparedViews::radiusOfNearest(const SamplePoint& sample, const Config& co
 {
   const auto k = static_cast<std::size_t>(config.neighborhood.k);
   views_[sample.view].cloud->search->nearest(centerIn(sample.view, sample), k, joined);
+  const bool bounded = joined.size() == k;  // then no point of another view counts that is farther than these
   for (std::size_t view = 0; view < size(); ++view) {
     if (view != sample.view) {
-      views_[view].cloud->search->nearest(centerIn(view, sample), k, part);
+      const NeighborhoodSearch& search = *views_[view].cloud->search;
+      const Eigen::Vector3f center = centerIn(view, sample);
+      bounded ? search.withinRadius(center, joined.radius, part) : search.nearest(center, k, part);
       joined.append(part, transform(sample.view, view));
     }
   }

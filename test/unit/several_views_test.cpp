@@ -154,6 +154,22 @@ TEST(SeveralViews, SampleAllCloudsAndCountTheirPointsOneAfterTheOther)
   EXPECT_GT(result.shells.size() - of_first, 20U);
 }
 
+TEST(SeveralViews, SampleAlsoThoseThatAreNoRangeImages)
+{
+  SeenScene scene(makeScene("table", 1), {0.0, 180.0});
+  Cloud& second = scene.frames[1].cloud;
+  second.width *= second.height;
+  second.height = 1;
+  const Localization result = localizeViews(Config(), scene.views(2));
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_EQ(result.warnings[0].rfind("view 2: ", 0), 0U) << result.warnings[0];
+  const std::size_t first = scene.frames[0].cloud.size();
+  const auto of_first = std::count_if(result.shells.begin(), result.shells.end(),
+                                      [&](const Shell& shell) { return shell.point_index < first; });
+  EXPECT_GT(of_first, 10);
+  EXPECT_GT(result.shells.size() - of_first, 10U);
+}
+
 double quantile(std::vector<double> values, double share)
 {
   std::sort(values.begin(), values.end());
