@@ -26,7 +26,8 @@ install_packages() {
 # build_targets TARGET...: in build/, the devel space in build/devel.
 build_targets() {
   local log=$build/configure.log
-  mkdir -p "$build"
+  # The environment of the tests has the paths of those folders only that exist when catkin is configured.
+  mkdir -p "$build/devel/lib/python3/dist-packages"
   echo "Building in ${build/#$PWD\//}"
   if ! cmake -S "$root" -B "$build" -DCATKIN_DEVEL_PREFIX="$build/devel" -DCATKIN_ENABLE_TESTING=ON \
       -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$log" 2>&1; then

@@ -16,6 +16,8 @@ void CameraInfoInput::subscribe(ros::NodeHandle& node_handle, const std::string&
         const std::lock_guard<std::mutex> lock(mutex_);
         latest_ = message;
       });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  topic_ = subscriber_.getTopic();
 }
 
 void CameraInfoInput::unsubscribe()
@@ -26,9 +28,11 @@ void CameraInfoInput::unsubscribe()
 std::optional<PinholeIntrinsics> CameraInfoInput::intrinsics(const Cloud& cloud, const std::string& logger)
 {
   sensor_msgs::CameraInfoConstPtr camera;
+  std::string topic;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     camera = latest_;
+    topic = topic_;
   }
   if (!camera || !cloud.organized()) {
     return std::nullopt;
@@ -37,7 +41,7 @@ std::optional<PinholeIntrinsics> CameraInfoInput::intrinsics(const Cloud& cloud,
     return intrinsicsFromCameraInfo(*camera, cloud.width, cloud.height);
   } catch (const std::invalid_argument& error) {
     if (complaints_.due()) {
-      ROS_WARN_STREAM_NAMED(logger, "camera_info is ignored: " << error.what());
+      ROS_WARN_STREAM_NAMED(logger, "the camera_info on " << topic << " is ignored: " << error.what());
     }
     return std::nullopt;
   }

@@ -22,12 +22,13 @@ public:
   void unsubscribe();
 
   /// The projection of an organized cloud; nothing where no camera_info has come, or, with a complaint under the
-  /// logger's name, where it does not fit the cloud. From one thread, any.
+  /// logger's name that names the topic, where it does not fit the cloud. From one thread, any.
   std::optional<PinholeIntrinsics> intrinsics(const Cloud& cloud, const std::string& logger);
 
 private:
   ros::Subscriber subscriber_;
-  std::mutex mutex_;  // guards latest_
+  std::mutex mutex_;  // guards the following two
+  std::string topic_;
   sensor_msgs::CameraInfoConstPtr latest_;
   Throttle complaints_;
 };

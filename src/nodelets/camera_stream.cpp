@@ -98,6 +98,7 @@ void CameraStream::runIfWanted(Device& device)
   const bool wanted = image_.getNumSubscribers() > 0 || camera_info_.getNumSubscribers() > 0;
   if (wanted && !device.runs(sensor_)) {
     last_frame_ = Clock::now();
+    clock_.restart();
   }
   device.run(sensor_, wanted);
 }

@@ -211,10 +211,10 @@ void MultiCameraNodelet::complainOfSilence()
   }
   if (!silent.empty()) {
     NODELET_WARN_STREAM("nothing is localized: no clouds arrive on " << silent);
-  } else if (!any_set_) {
+  } else if (const double difference = latest.toSec() - earliest.toSec();
+             !any_set_ && difference > parameters_.sync_slop) {
     NODELET_WARN_STREAM("nothing is localized: the stamps of the newest clouds differ by "
-                        << (latest - earliest).toSec() << " s, which is more than sync_slop, " << parameters_.sync_slop
-                        << " s");
+                        << difference << " s, which is more than sync_slop, " << parameters_.sync_slop << " s");
   }
   any_set_ = false;
 }

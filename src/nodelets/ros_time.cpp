@@ -2,6 +2,9 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
+#include <cstdint>
+
 namespace grasp_affordances
 {
 namespace
@@ -16,8 +19,9 @@ bool TimeJumps::wentBack(const ros::Time& stamp)
   if (stamp.isZero()) {
     return false;
   }
-  const bool back = stamp < latest_;
-  latest_ = stamp;
+  const bool back =
+      stamp < latest_ && latest_.toNSec() - stamp.toNSec() > static_cast<std::uint64_t>(tolerance_.toNSec());
+  latest_ = back ? stamp : std::max(latest_, stamp);
   return back;
 }
 

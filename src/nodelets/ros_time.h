@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/duration.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
 #include <ros/wall_timer.h>
@@ -16,10 +17,15 @@ namespace grasp_affordances
 class TimeJumps
 {
 public:
-  /// Whether this stamp is earlier than the one before. A stamp of zero is none and says nothing.
+  /// @param tolerance  by which stamps may be out of order, as those of several publishers on one topic are
+  explicit TimeJumps(ros::Duration tolerance = ros::Duration()) : tolerance_(tolerance) {}
+
+  /// Whether this stamp is earlier than the latest so far, by more than the tolerance; that one is then forgotten. A
+  /// stamp of zero is none and says nothing.
   bool wentBack(const ros::Time& stamp);
 
 private:
+  ros::Duration tolerance_;
   ros::Time latest_;  // zero before the first
 };
 

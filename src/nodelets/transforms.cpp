@@ -1,5 +1,6 @@
 #include "nodelets/transforms.h"
 
+#include <ros/duration.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <cstdint>
@@ -12,10 +13,22 @@ namespace
 constexpr std::uint32_t kSubscriberQueue = 100;
 constexpr std::uint32_t kThreads = 1;
 
+/// s by which the transforms of one frame may arrive out of order: several nodes may publish them. tf2 sorts them.
+constexpr double kDisorder = 0.5;
+
 /// tf2 knows no leading slash, with which older drivers and bags name their frames.
 std::string frameName(const std::string& name)
 {
   return !name.empty() && name[0] == '/' ? name.substr(1) : name;
+}
+
+/// tf2 also takes quaternions of which few digits were given, and does not normalize them.
+Eigen::Isometry3d isometry(geometry_msgs::TransformStamped transform)
+{
+  Eigen::Quaterniond rotation;
+  tf2::fromMsg(transform.transform.rotation, rotation);
+  transform.transform.rotation = tf2::toMsg(rotation.normalized());
+  return tf2::transformToEigen(transform);
 }
 
 }  // namespace
@@ -44,8 +57,10 @@ Eigen::Isometry3d Transforms::lookup(const std::string& target_frame, const std:
     return Eigen::Isometry3d::Identity();
   }
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait_for(lock, timeout, [&] { return closed_ || buffer_.canTransform(target, source, stamp); });
-  return tf2::transformToEigen(buffer_.lookupTransform(target, source, stamp));
+  if (!source.empty()) {  // for which nobody needs to wait
+    changed_.wait_for(lock, timeout, [&] { return closed_ || buffer_.canTransform(target, source, stamp); });
+  }
+  return isometry(buffer_.lookupTransform(target, source, stamp));
 }
 
 void Transforms::restart()
@@ -68,15 +83,20 @@ void Transforms::receive(const ros::MessageEvent<const tf2_msgs::TFMessage>& eve
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
-    const ros::Time& stamp = transform.header.stamp;
-    if (!fixed && streams_[transform.child_frame_id].wentBack(stamp)) {
+    if (!fixed && wentBack(transform)) {
       forget();
       restarted_ = true;
-      streams_[transform.child_frame_id].wentBack(stamp);
+      wentBack(transform);  // the first of the new run
     }
     buffer_.setTransform(transform, event.getPublisherName(), fixed);
   }
   changed_.notify_all();
+}
+
+bool Transforms::wentBack(const geometry_msgs::TransformStamped& transform)
+{
+  const auto stream = streams_.try_emplace(transform.child_frame_id, ros::Duration(kDisorder)).first;
+  return stream->second.wentBack(transform.header.stamp);
 }
 
 void Transforms::forget()

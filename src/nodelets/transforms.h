@@ -2,6 +2,7 @@
 
 #include "nodelets/ros_time.h"
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
@@ -48,6 +49,7 @@ public:
 
 private:
   void receive(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool fixed);
+  bool wentBack(const geometry_msgs::TransformStamped& transform);
   void forget();
 
   std::mutex mutex_;  // guards the following

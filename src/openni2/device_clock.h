@@ -25,6 +25,9 @@ public:
   /// @return the frame's time by the host, nanoseconds
   std::int64_t hostTime(std::uint64_t device_us, std::int64_t arrival_ns);
 
+  /// Starts a new estimate, as is due where no frames were taken for a while: that of a recording stands meanwhile.
+  void restart() { offsets_.clear(); }
+
 private:
   struct Offset
   {

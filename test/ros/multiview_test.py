@@ -7,6 +7,7 @@ import math
 import os
 import subprocess
 import tempfile
+import time
 import unittest
 
 import rospy
@@ -162,6 +163,15 @@ class Multiview(unittest.TestCase):
             self.publish(range(2), rospy.Time.now())
             wait_until(lambda: 'want of a transform' in node.output(), 'complaint')
             self.assertIn('nowhere', node.output())
+            room = TransformStamped(child_frame_id='room')
+            room.header.frame_id = 'nowhere'
+            room.transform.rotation.w = 1
+            self.fixed.publish(self.poses + [room])
+            time.sleep(0.5)  # until it has arrived: nothing tells
+            stamp = self.publish(range(2), rospy.Time.now())
+            statistics = node.statistics.wait(lambda m: m.header.stamp == stamp)
+            self.assertEqual((statistics.clouds_received, statistics.clouds_processed,
+                              statistics.clouds_without_transform), (2, 1, 1))
             self.assertEqual(node.interrupt(), 0)
             for sign in ABNORMAL_ENDS:
                 self.assertNotIn(sign, node.output())

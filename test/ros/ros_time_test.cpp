@@ -26,5 +26,16 @@ TEST(TimeJumps, AMissingStampSaysNothing)
   EXPECT_TRUE(jumps.wentBack(ros::Time(99.0)));
 }
 
+TEST(TimeJumps, WhatIsOutOfOrderByLessThanTheToleranceIsNoJump)
+{
+  TimeJumps jumps(ros::Duration(0.5));
+  EXPECT_FALSE(jumps.wentBack(ros::Time(100.0)));
+  EXPECT_FALSE(jumps.wentBack(ros::Time(99.6)));
+  EXPECT_FALSE(jumps.wentBack(ros::Time(99.5)));
+  EXPECT_TRUE(jumps.wentBack(ros::Time(99.4))) << "little by little it adds up";
+  EXPECT_FALSE(jumps.wentBack(ros::Time(99.0))) << "it goes on from there";
+  EXPECT_TRUE(jumps.wentBack(ros::Time(1.0)));
+}
+
 }  // namespace
 }  // namespace grasp_affordances

@@ -82,6 +82,22 @@ class SensorStreams(unittest.TestCase):
         expected = as_the_color_camera_sees(pixels(depth))
         self.assertLessEqual(numpy.count_nonzero(pixels(registered) != expected), 2)
 
+    def test_stamps_are_right_after_a_pause_in_which_a_recording_stands(self):
+        with VirtualDevices(device(frames=1)) as devices:
+            recording = devices.record('paused.oni', 60)
+            with devices.driver('paused', '_device_id:=' + recording, '_playback_loop:=true'):
+                for pause in (3, 0):
+                    self.assertAlmostEqual(self.delay('paused/depth/image_raw'), 0.033, delta=0.5)
+                    rospy.sleep(pause)
+
+    def delay(self, topic):
+        """s, from the stamp of an image to its arrival."""
+        images = Listener(topic, Image)
+        images.wait()
+        images.close()
+        image, arrival = images.arrivals()[0]
+        return (arrival - image.header.stamp).to_sec()
+
     def test_two_devices_in_one_process(self):
         loads = [Process('nodelet', 'nodelet', 'load', 'grasp_affordances/XtionNodelet', '/manager',
                          '__ns:=' + name, '__name:=driver', '_camera:=' + name, '_device_id:=' + device_id)

@@ -90,6 +90,14 @@ class Tf(unittest.TestCase):
         cls.fixed = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
         cls.fixed.publish([T_ROOM_CAMERA])
 
+    def setUp(self):
+        self.wait_for_disconnection()
+
+    def wait_for_disconnection(self):
+        """Of a localizer that has ended: its connections must not be taken for those of the next one."""
+        wait_until(lambda: not any(p.get_num_connections() for p in (self.points, self.moving, self.fixed)),
+                   'disconnection')
+
     def connect(self, localizers=1, listeners=1):
         """Until all that wait for clouds and for transforms are connected."""
         wait_until(lambda: self.points.get_num_connections() == localizers and
@@ -138,6 +146,7 @@ class Tf(unittest.TestCase):
         with Localizer('plain', estimator, '_sampling/samples:=40000') as plain:
             self.connect(listeners=0)
             found = plain.answer('shells', self.publish()).shells
+        self.wait_for_disconnection()
         points = coordinates(self.table)
         centre = applied(T_ROOM_CAMERA, points[found[len(found) // 2].point_index])
         lower, upper = ([x + side for x in centre] for side in (-0.06, 0.06))
@@ -195,6 +204,36 @@ class Tf(unittest.TestCase):
         in_room = [applied(T_ROOM_CAMERA, coordinates(self.table)[shell.point_index]) for shell in shells[:20]]
         for shell, point in zip(shells, in_room):
             self.assertLess(math.dist(vector(shell.centroid), (point[0] + 1, point[1], point[2])), 0.1)
+
+    def test_transforms_out_of_order(self):
+        with Localizer('localizer', '_target_frame:=map') as localizer:
+            self.connect()
+            stamp = rospy.Time.now()
+            for seconds in (0.1, -0.1):
+                self.moving.publish([transform('map', 'room', (0, 0, 0), stamp=stamp + rospy.Duration(seconds))])
+            time.sleep(0.1)  # until they have arrived: nothing tells
+            self.publish(stamp)
+            self.assertEqual(localizer.answer('statistics', stamp).clouds_without_transform, 0)
+
+    def test_a_rotation_of_few_digits(self):
+        with Localizer('localizer', '_target_frame:=map') as localizer:
+            self.connect()
+            stamp = rospy.Time.now()
+            self.moving.publish([transform('map', 'room', (0, 0, 0), (0, 0, 0.7, 0.71), stamp)])
+            time.sleep(0.1)  # likewise
+            self.publish(stamp)
+            shells = localizer.answer('shells', stamp).shells
+            self.assertGreater(len(shells), 50)
+            for shell in shells:
+                for direction in (shell.axis, shell.normal):
+                    self.assertAlmostEqual(math.hypot(*vector(direction)), 1, delta=1e-6)
+
+    def test_a_cloud_without_a_frame_waits_for_nothing(self):
+        with Localizer('localizer', '_target_frame:=map', '_transform_timeout:=10') as localizer:
+            self.connect()
+            self.publish(frame='')
+            wait_until(lambda: 'cloud dropped for want of a transform' in localizer.output(), 'complaint', timeout=5)
+            self.assertNotIn('canTransform', localizer.output())
 
     def test_transforms_of_an_earlier_run_are_forgotten(self):
         start = rospy.Time.now()

@@ -73,7 +73,7 @@ class Diagnostics:
     def _statuses(self, since):
         for message in self._listener.messages():
             for status in message.status:
-                if status.name.lstrip('/') == self._name and message.header.stamp >= since:
+                if status.name == self._name and message.header.stamp >= since:
                     yield message.header.stamp, status
 
     def wait(self, state, since=rospy.Time(), accept=lambda status: True, timeout=20):
@@ -86,7 +86,8 @@ class Diagnostics:
 
 
 def value(status, key):
-    return next(pair.value for pair in status.values if pair.key == key)
+    """None where there is none, as in the first status of all, that the node starts."""
+    return next((pair.value for pair in status.values if pair.key == key), None)
 
 
 def pixels(image):

@@ -90,6 +90,7 @@ TEST(DepthImage, TornPicturesAreNoticed)
   torn[3].width = 2;
   torn[4].height = 1;
   torn[5].stride = 4;
+  torn[5].bytes = 8;
   torn[6].format = openni::PIXEL_FORMAT_DEPTH_100_UM;
   for (const RawImage& image : torn) {
     EXPECT_FALSE(isIntact(image, layout)) << &image - torn.data();

@@ -128,6 +128,17 @@ TEST(FieldOfView, GivesTheFocalLength)
   EXPECT_EQ(intrinsics->cy, 239.5);
 }
 
+// Its first 960 rows are, at twice the size, the picture of 640x480; of them it reports the angle.
+TEST(FieldOfView, OfTheLargestPictureIsThatOfItsFirstRows)
+{
+  const auto intrinsics = pinholeIntrinsics({1.0226, 0.7966}, 1280, 1024);
+  ASSERT_TRUE(intrinsics);
+  EXPECT_NEAR(intrinsics->fx, 2 * 570.3, 0.2);
+  EXPECT_NEAR(intrinsics->fy, 2 * 570.3, 0.2);
+  EXPECT_EQ(intrinsics->cx, 639.5);
+  EXPECT_EQ(intrinsics->cy, 479.5);
+}
+
 TEST(FieldOfView, IsNotBelievedWhereItCannotBe)
 {
   EXPECT_FALSE(pinholeIntrinsics({0.0, 0.8}, 640, 480));

@@ -127,6 +127,17 @@ TEST(DeviceClock, AnotherDeviceWithALaterClockIsBelievedAtOnce)
   EXPECT_EQ(clock.hostTime(900'000'000, kStart + 2 * kSecond), kStart + 2 * kSecond);
 }
 
+TEST(DeviceClock, IsRightAtOnceAfterAPauseInWhichTheDevicesClockStood)
+{
+  DeviceClock clock;
+  clock.hostTime(0, kStart);
+  clock.hostTime(33'333, kStart + 33'333 * kMicrosecond);
+  clock.restart();
+  EXPECT_EQ(clock.hostTime(66'666, kStart + 60 * kSecond), kStart + 60 * kSecond);
+  clock.restart();
+  EXPECT_EQ(clock.hostTime(99'999, kStart + 60 * kSecond), kStart + 60 * kSecond + 1);  // they grow nevertheless
+}
+
 TEST(DeviceClock, FollowsAHostClockThatIsSetBackAtOnce)
 {
   DeviceClock clock;
