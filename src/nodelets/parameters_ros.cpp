@@ -11,6 +11,13 @@ namespace grasp_affordances
 namespace
 {
 
+/// tf2's names begin without a slash, unlike those of ROS before it.
+void readFrame(const std::string& name, ParameterReader& read, std::string& frame)
+{
+  read(name, frame, "the name of a frame");
+  frame.erase(0, frame.find_first_not_of('/'));
+}
+
 void readNodeParameters(ParameterReader& read, NodeParameters& result)
 {
   std::string preset = result.config.preset;
@@ -18,8 +25,8 @@ void readNodeParameters(ParameterReader& read, NodeParameters& result)
   result.config = presetConfig(preset);
   visitParameters(result.config, read);
   read("lazy", result.lazy, "");
-  read("workspace_frame", result.workspace_frame, "the name of a frame");
-  read("target_frame", result.target_frame, "the name of a frame");
+  readFrame("workspace_frame", read, result.workspace_frame);
+  readFrame("target_frame", read, result.target_frame);
   read("transform_timeout", result.transform_timeout, Range<double>{0.0, 10.0}, "s", "");
 }
 

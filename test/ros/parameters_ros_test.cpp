@@ -54,7 +54,7 @@ TEST(NodeParameters, Frames)
   EXPECT_EQ(NodeParameters().target_frame, "");
   XmlRpcValue parameters;
   parameters["workspace_frame"] = "table";
-  parameters["target_frame"] = "base";
+  parameters["target_frame"] = "/base";
   parameters["transform_timeout"] = 1;
   const NodeParameters read = nodeParameters(parameters);
   EXPECT_EQ(read.workspace_frame, "table");
