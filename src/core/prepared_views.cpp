@@ -114,12 +114,12 @@ void PreparedViews::compareViews(ThreadTeam& team)
   });
   for (const Comparison& compared : comparisons_) {
     disagreement = std::fmax(disagreement, compared.disagreement);
-    constexpr double kMisplaced = 0.015;  // m; with exact poses noise accounts for less than a third of it
+    constexpr double kMisplaced = 0.015;  // m; twice what exact poses were seen to cause
     if (compared.disagreement > kMisplaced) {
       warnings.push_back("views " + std::to_string(views_[compared.first].number) + " and " +
                          std::to_string(views_[compared.second].number) + " place the same surfaces " +
                          std::to_string(std::lround(1000.0 * compared.disagreement)) +
-                         " mm apart: their poses are wrong");
+                         " mm apart: their poses may be wrong");
     }
   }
 }

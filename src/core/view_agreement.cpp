@@ -14,7 +14,10 @@ namespace
 constexpr double kCoarsestGate = 0.06;  // m, distance of surfaces beyond which they are not taken for the same
 constexpr double kFinestGate = 0.01;    // m
 constexpr double kRefinement = 0.85;    // of the gate, from one iteration to the next
-constexpr std::size_t kMinPairs = 100;
+constexpr double kNearGate = 0.02;      // m
+constexpr std::size_t kMinPairs = 100;  // for a step
+constexpr double kMinSupport = 0.2;     // pairs, of the samples of both views
+constexpr double kClearlyMore = 1.1;   // times as many pairs
 
 /// Share of the strongest possible constraint below which a direction of motion is left as it is: normals that are off
 /// by 2.5 degrees, as noise makes them, constrain shifts along a plane as much.
@@ -47,20 +50,35 @@ double ViewAgreement::disagreement(const RangeImage& first, const RangeImage& se
 {
   first_.compute(first);
   second_.compute(second);
+  // From afar a fit may settle somewhere wrong: it has to explain more than one that starts and stays near the claim.
+  const Fit far = fit(T_first_second, kCoarsestGate), near = fit(T_first_second, kNearGate);
+  const Fit& better = far.support > kClearlyMore * near.support ? far : near;
+  const double needed = kMinSupport * static_cast<double>(first_.samples().size() + second_.samples().size());
+  return better.support < needed ? std::numeric_limits<double>::quiet_NaN() : better.displacement;
+}
+
+ViewAgreement::Fit ViewAgreement::fit(const Eigen::Isometry3d& T_first_second, double gate)
+{
   Eigen::Isometry3d correction = Eigen::Isometry3d::Identity();
-  for (double gate = kCoarsestGate; gate > kFinestGate; gate *= kRefinement) {
+  for (; gate > kFinestGate; gate *= kRefinement) {
     findPairs(correction * T_first_second, gate);
     if (pairs_.size() < kMinPairs) {
-      return std::numeric_limits<double>::quiet_NaN();
+      return {};
     }
     correction = motionToFit() * correction;
+  }
+  findPairs(correction * T_first_second, kFinestGate);
+  if (pairs_.empty()) {
+    return {};
   }
   const Eigen::Isometry3d T_claimed_fitted = correction.inverse();
   double sum = 0.0;
   for (const Pair& pair : pairs_) {
     sum += (T_claimed_fitted * pair.point_of_second - pair.point_of_second).norm();
   }
-  return sum / static_cast<double>(pairs_.size());
+  const auto pairs = static_cast<double>(pairs_.size());
+  const bool within_reach = sum / pairs < 2.0 * kCoarsestGate;
+  return within_reach ? Fit{pairs, sum / pairs} : Fit{};
 }
 
 void ViewAgreement::findPairs(const Eigen::Isometry3d& T_first_second, double gate)

@@ -38,6 +38,14 @@ private:
     double weight;
   };
 
+  /// Where a fit has ended.
+  struct Fit
+  {
+    double support = 0.0;       // pairs that it leaves close together
+    double displacement = 0.0;  // m, mean over them
+  };
+
+  Fit fit(const Eigen::Isometry3d& T_first_second, double gate);
   void findPairs(const Eigen::Isometry3d& T_first_second, double gate);
   void addPair(const SurfaceElement& first, const SurfaceElement& second, const Eigen::Isometry3d& T_first_second,
                double gate);
