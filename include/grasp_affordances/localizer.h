@@ -38,7 +38,8 @@ public:
   /// another took to be hidden there.
   ///
   /// Shells are in the common frame, their normals towards the sensor that saw the sample, and `point_index` counts the
-  /// points of all clouds, one cloud after the other. One cloud at the origin gives what it gives alone.
+  /// points of all clouds, one cloud after the other. One cloud at the origin gives what it gives alone. One without a
+  /// usable point or with a pose that is not finite is left out, with a warning.
   void localize(const std::vector<PosedCloud>& views, Localization& result,
                 const Eigen::Isometry3d& T_workspace_common = Eigen::Isometry3d::Identity());
 

@@ -24,8 +24,8 @@ std::vector<std::uint32_t> screenPoints(const RangeImage& image, const HandGeome
                                         std::uint64_t seed);
 
 /// The i-th of `config.samples` sampled points. Where there are as many candidates as samples, one drawn from the i-th
-/// of equal parts of their list. Of fewer candidates each is
-/// drawn once. All other samples are drawn from all measured points, uniformly. @return index of a point in the cloud
+/// of equal parts of their list. Of fewer candidates each is drawn once. All other samples are drawn from all measured
+/// points, uniformly. @return index of a point in the cloud
 std::uint32_t samplePoint(const std::vector<std::uint32_t>& measured, const std::vector<std::uint32_t>& candidates,
                           const SamplingConfig& config, std::uint64_t i);
 

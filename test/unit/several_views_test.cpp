@@ -342,6 +342,14 @@ TEST(SeveralViews, GoOnWithoutThoseThatMeasuredNothing)
       EXPECT_EQ(result.shells[i].point_index, alone.shells[i].point_index + (nothing_first ? 640 * 480 : 0));
     }
   }
+  Pose nowhere = Pose::Identity();
+  nowhere.translation().x() = std::nan("");
+  config.neighborhood.kind = NeighborhoodKind::knn;
+  const Localization posed = localizeViews(config, {{&cloud, Pose::Identity()}, {&cloud, nowhere}});
+  EXPECT_EQ(posed.counts, Localizer(config).localize(cloud).counts);
+  ASSERT_EQ(posed.warnings.size(), 1U);
+  EXPECT_EQ(posed.warnings[0], "view 2: its pose is not finite");
+
   const Localization none = localizeViews(config, {{&nothing, Pose::Identity()}, {&nothing, somePose()}});
   EXPECT_EQ(none.sampled, 0U);
   EXPECT_EQ(none.warnings.size(), 2U);
