@@ -13,7 +13,7 @@ namespace
 
 constexpr double kCoarsestGate = 0.06;  // m, distance of surfaces beyond which they are not taken for the same
 constexpr double kFinestGate = 0.01;    // m
-constexpr double kRefinement = 0.85;    // of the gate, from one iteration to the next
+constexpr double kRefinement = 0.88;    // of the gate, from one iteration to the next
 constexpr double kNearGate = 0.02;      // m
 constexpr std::size_t kMinPairs = 100;  // for a step
 constexpr double kMinSupport = 0.2;     // pairs, of the samples of both views
