@@ -18,7 +18,7 @@ struct Circle
 };
 
 /// Circle of least algebraic distance through the neighborhood's points projected along an axis onto the plane of
-/// the orthonormal vectors `first` and `second` (paper, section IV-A, with l_i = (x, y, 1)). Empty for projections that
+/// the orthonormal vectors `first` and `second` (paper, section IV-B, with l_i = (x, y, 1)). Empty for projections that
 /// lie on a line. On arcs much shorter than the circle, with noise, the algebraic fit is biased towards small radii:
 /// see docs/accuracy.md.
 std::optional<Circle> fitCircle(const Neighborhood& neighborhood, const Eigen::Vector3d& first,

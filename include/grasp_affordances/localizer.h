@@ -32,7 +32,7 @@ public:
   void localize(const Cloud& cloud, Localization& result,
                 const Eigen::Isometry3d& T_workspace_cloud = Eigen::Isometry3d::Identity());
 
-  /// Localizes in several clouds of the same moment, as seen by several sensors (paper, section III-A). Samples are
+  /// Localizes in several clouds of the same moment, as seen by several sensors (paper, section IV-A). Samples are
   /// drawn from all of them; neighborhoods and clearance are searched in all of them. A neighborhood is kept when at
   /// least one view with points in it sees it unoccluded; free space that one view observed is free, and blocks what
   /// another took to be hidden there.
