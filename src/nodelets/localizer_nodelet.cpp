@@ -17,7 +17,6 @@
 #include <Eigen/Geometry>
 #include <pluginlib/class_list_macros.hpp>
 
-#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -67,7 +66,7 @@ private:
   void receive(const Points& message);
   void process(const Arrival& arrival);
   void localize(const Arrival& arrival);
-  Eigen::Isometry3d transform(const std::string& frame, const std_msgs::Header& header);
+  Eigen::Isometry3d transform(const std::string& frame, const std_msgs::Header& header, Transforms::Deadline deadline);
 
   NodeParameters parameters_;
   LocalizationOutputs outputs_;
@@ -153,8 +152,9 @@ void LocalizerNodelet::localize(const Arrival& arrival)
   std_msgs::Header header = arrival.message->header;
   cloudFromPointCloud2(*arrival.message, cloud_);
   cloud_.intrinsics = camera_info_.intrinsics(cloud_, getName());
-  const Eigen::Isometry3d T_workspace_cloud = transform(parameters_.workspace_frame, header);
-  const Eigen::Isometry3d T_target_cloud = transform(parameters_.target_frame, header);
+  const Transforms::Deadline deadline = Transforms::after(parameters_.transform_timeout);
+  const Eigen::Isometry3d T_workspace_cloud = transform(parameters_.workspace_frame, header, deadline);
+  const Eigen::Isometry3d T_target_cloud = transform(parameters_.target_frame, header, deadline);
 
   localizer_->localize(cloud_, localization_, T_workspace_cloud);
   if (!parameters_.target_frame.empty()) {
@@ -166,13 +166,13 @@ void LocalizerNodelet::localize(const Arrival& arrival)
   outputs_.publish(localization_, localizer_->config(), header, arrival.time);
 }
 
-Eigen::Isometry3d LocalizerNodelet::transform(const std::string& frame, const std_msgs::Header& header)
+Eigen::Isometry3d LocalizerNodelet::transform(const std::string& frame, const std_msgs::Header& header,
+                                              Transforms::Deadline deadline)
 {
   if (frame.empty()) {
     return Eigen::Isometry3d::Identity();
   }
-  return transforms_->lookup(frame, header.frame_id, header.stamp,
-                             std::chrono::duration<double>(parameters_.transform_timeout));
+  return transforms_->lookup(frame, header.frame_id, header.stamp, deadline);
 }
 
 }  // namespace grasp_affordances

@@ -19,7 +19,6 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -233,19 +232,19 @@ void MultiCameraNodelet::process(const Arrival& arrival)
 void MultiCameraNodelet::localize(const Arrival& arrival)
 {
   const NodeParameters& parameters = parameters_.node;
-  const std::chrono::duration<double> timeout(parameters.transform_timeout);
+  const Transforms::Deadline deadline = Transforms::after(parameters.transform_timeout);
   std_msgs::Header header;
   header.frame_id = parameters.target_frame;
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const sensor_msgs::PointCloud2& message = *arrival.clouds[i];
     convert(message, views_[i]);
     posed_clouds_[i] = {&views_[i].cloud,
-                        transforms_->lookup(header.frame_id, message.header.frame_id, message.header.stamp, timeout)};
+                        transforms_->lookup(header.frame_id, message.header.frame_id, message.header.stamp, deadline)};
     header.stamp = std::max(header.stamp, message.header.stamp);
   }
   Eigen::Isometry3d T_workspace_target = Eigen::Isometry3d::Identity();
   if (!parameters.workspace_frame.empty()) {
-    T_workspace_target = transforms_->lookup(parameters.workspace_frame, header.frame_id, header.stamp, timeout);
+    T_workspace_target = transforms_->lookup(parameters.workspace_frame, header.frame_id, header.stamp, deadline);
   }
   localizer_->localize(posed_clouds_, localization_, T_workspace_target);
   outputs_.publish(localization_, localizer_->config(), header, arrival.time);

@@ -49,7 +49,7 @@ Transforms::Transforms(ros::NodeHandle& node_handle) : spinner_(kThreads, &queue
 }
 
 Eigen::Isometry3d Transforms::lookup(const std::string& target_frame, const std::string& source_frame,
-                                     const ros::Time& stamp, std::chrono::duration<double> timeout)
+                                     const ros::Time& stamp, Deadline deadline)
 {
   const std::string target = frameName(target_frame);
   const std::string source = frameName(source_frame);
@@ -58,7 +58,7 @@ Eigen::Isometry3d Transforms::lookup(const std::string& target_frame, const std:
   }
   std::unique_lock<std::mutex> lock(mutex_);
   if (!source.empty()) {  // for which nobody needs to wait
-    changed_.wait_for(lock, timeout, [&] { return closed_ || buffer_.canTransform(target, source, stamp); });
+    changed_.wait_until(lock, deadline, [&] { return closed_ || buffer_.canTransform(target, source, stamp); });
   }
   return isometry(buffer_.lookupTransform(target, source, stamp));
 }

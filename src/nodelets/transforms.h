@@ -31,14 +31,23 @@ namespace grasp_affordances
 class Transforms
 {
 public:
+  using Deadline = std::chrono::steady_clock::time_point;
+
+  /// So many seconds from now.
+  static Deadline after(double seconds)
+  {
+    return std::chrono::steady_clock::now() +
+           std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+  }
+
   /// Subscribes; names are remapped as those of the node handle.
   explicit Transforms(ros::NodeHandle& node_handle);
 
   /// The transform at the time of the stamp (zero: the latest), interpolated; of a frame to itself the identity. Waits
   /// for it, by the wall clock.
-  /// @throw tf2::TransformException, with the reason, where it has not arrived by the timeout or close().
+  /// @throw tf2::TransformException, with the reason, where it has not arrived by the deadline or close().
   Eigen::Isometry3d lookup(const std::string& target_frame, const std::string& source_frame, const ros::Time& stamp,
-                           std::chrono::duration<double> timeout);
+                           Deadline deadline);
 
   /// Where the stamps of the data to be transformed went back: forgets the moving transforms, unless these went back on
   /// their own account since the last call.
