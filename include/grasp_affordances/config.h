@@ -13,6 +13,8 @@ struct HandGeometry
 {
   double capture_radius = 0.026;    ///< m, radius of the largest circle inscribed in the capture region
   double finger_thickness = 0.008;  ///< m, of the thickest finger or thumb in the opposition plane
+  double palm_width = 0.03;         ///< m, of palm and fingers along the opposition axis, which is the shell's
+  double palm_depth = 0.06;         ///< m, from the palm's face back: what follows the palm along its approach
 };
 
 /// Which points around a sample make up its neighborhood.
@@ -39,9 +41,14 @@ enum class NormalsMode
 
 struct SamplingConfig
 {
-  int samples = 4000;      ///< neighborhoods drawn per cloud (n of Algorithm 1)
-  std::uint64_t seed = 1;  ///< every cloud is seeded with it afresh
-  bool screen = true;      ///< sample first where the cloud falls away on both sides, evenly over the image
+  int samples = 4000;           ///< neighborhoods drawn per cloud (n of Algorithm 1)
+  std::uint64_t seed = 1;       ///< every cloud is seeded with it afresh
+  bool screen = true;           ///< sample first where the cloud falls away on both sides, evenly over the image
+  bool importance = true;       ///< draw samples of later rounds near the shells that earlier ones found
+  double first_share = 0.5;     ///< of the samples, those of the first round
+  double uniform_share = 0.3;   ///< of the samples of later rounds, those that are drawn like the first ones
+  double spread = 0.01;         ///< m, standard deviation of a sample near a shell from that shell's sample
+  double time_budget_ms = 0.0;  ///< ms of wall time after which no more samples are examined; 0: no limit
 };
 
 struct NeighborhoodConfig
@@ -102,6 +109,45 @@ struct WorkspaceConfig
   double min_z = -kNoLimit, max_z = kNoLimit;  ///< m
 };
 
+/// How shells become handles: what a hand can close around as one, straight or bent.
+struct HandlesConfig
+{
+  double max_angle = 0.6;                ///< rad, between the axes of shells that follow one another along a handle
+  double max_distance = 0.008;           ///< m, between their axes
+  double max_radius_difference = 0.012;  ///< m, between their inner radii
+  double max_gap = 0.01;                 ///< m along the axis, between shells of one handle
+  int min_support = 3;                   ///< shells; fewer are no handle
+};
+
+/// Poses of a hand on the ring around a handle's axis.
+struct HandPosesConfig
+{
+  int count = 12;                   ///< directions of approach that are tried on each ring; 0: no hand poses
+  double approach_distance = 0.08;  ///< m, by which the hand moves forward to where it closes
+  double min_observed_free = 0.5;   ///< share of the approach corridor that the sensor saw through
+  double approach_x = 0.0;          ///< direction in which a hand should approach; all zero: any
+  double approach_y = 0.0;          ///< in the approach's frame: the cloud's, or another that the caller relates to it
+  double approach_z = 0.0;
+  double max_approach_angle = 0.8;  ///< rad, between that direction and a hand's approach
+  double tool_x = 0.0;              ///< m, of the tool's frame in the hand's: what hand poses are given for
+  double tool_y = 0.0;              ///< m
+  double tool_z = 0.0;              ///< m
+  double tool_roll = 0.0;           ///< rad, about the hand's x, then its y, then its z (fixed axes)
+  double tool_pitch = 0.0;          ///< rad
+  double tool_yaw = 0.0;            ///< rad
+};
+
+/// How handles keep their identity from cloud to cloud.
+struct TrackingConfig
+{
+  bool track = true;            ///< handles keep their id from cloud to cloud, and are smoothed
+  double max_distance = 0.03;   ///< m, at right angles to the axis, that a handle may move between clouds
+  double max_angle = 0.6;       ///< rad that a handle may turn between clouds
+  double smoothing_time = 0.5;  ///< s over which a handle's pose and sizes are averaged; 0: not smoothed
+  int min_hits = 2;             ///< clouds that a new handle must be found in before it is reported
+  double lifetime = 1.0;        ///< s for which a handle that is not found any more is still reported
+};
+
 /// Everything that determines a result. The initialisers above are the `localizer` preset and the only place where its
 /// defaults stand; `config/localizer.yaml` is checked against them by a test.
 struct Config
@@ -114,6 +160,9 @@ struct Config
   OcclusionConfig occlusion;
   EstimationConfig estimation;
   ShellConfig shell;
+  HandlesConfig handles;
+  HandPosesConfig hand_poses;
+  TrackingConfig tracking;
   int threads = 0;  ///< that work on a cloud; 0: one per core; no influence on the result
 };
 

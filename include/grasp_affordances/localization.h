@@ -1,5 +1,7 @@
 #pragma once
 
+#include "grasp_affordances/handle.h"
+
 #include <Eigen/Geometry>
 
 #include <array>
@@ -48,12 +50,18 @@ enum class Outcome : std::uint8_t
   too_short,       ///< a clear gap, but over less than the minimum length
   unobserved_gap,  ///< a clear gap of which the sensor saw too little
   uncovered,       ///< a shell of whose silhouette too little shows surface inside it
+  out_of_time,     ///< not examined: the time budget was spent
   shell            ///< a cylindrical shell
 };
-constexpr std::size_t kOutcomes = 10;
+constexpr std::size_t kOutcomes = 11;
 
 /// Key of an outcome in `counts` ("too_few_points", ..., "shells").
 const char* outcomeName(Outcome outcome);
+
+struct Localization;
+
+/// One sentence for people that says why there is no shell, from where the samples ended; empty where there is one.
+std::string explainNothing(const Localization& localization);
 
 /// Wall time for the whole cloud, and time per stage summed over the threads.
 struct StageTimes
@@ -64,12 +72,15 @@ struct StageTimes
   double occlusion = 0.0;
   double fit = 0.0;
   double shell = 0.0;
+  double handles = 0.0;     ///< ms of wall time, of grouping shells into handles
+  double hand_poses = 0.0;  ///< ms of wall time
 };
 
 /// Result for one cloud.
 struct Localization
 {
   std::vector<Shell> shells;                      ///< in the order of the samples
+  std::vector<GraspHandle> handles;               ///< by id: the best first
   std::uint32_t points = 0;                       ///< measured points of the cloud
   std::uint32_t sampled = 0;                      ///< samples drawn; the sum of `counts`
   std::uint32_t threads = 0;                      ///< that worked on it

@@ -29,8 +29,10 @@ public:
   /// The same into a result whose memory is used again. For organized clouds with intrinsics, of a size seen before,
   /// nothing is allocated but by what has to grow.
   /// @param T_workspace_cloud  where the box of WorkspaceConfig is
+  /// @param T_approach_cloud  to the frame in which HandPosesConfig gives the direction of approach
   void localize(const Cloud& cloud, Localization& result,
-                const Eigen::Isometry3d& T_workspace_cloud = Eigen::Isometry3d::Identity());
+                const Eigen::Isometry3d& T_workspace_cloud = Eigen::Isometry3d::Identity(),
+                const Eigen::Isometry3d& T_approach_cloud = Eigen::Isometry3d::Identity());
 
   /// Localizes in several clouds of the same moment, as seen by several sensors (paper, section IV-A). Samples are
   /// drawn from all of them; neighborhoods and clearance are searched in all of them. A neighborhood is kept when at
@@ -41,9 +43,14 @@ public:
   /// points of all clouds, one cloud after the other. One cloud at the origin gives what it gives alone. One without a
   /// usable point or with a pose that is not finite is left out, with a warning.
   void localize(const std::vector<PosedCloud>& views, Localization& result,
-                const Eigen::Isometry3d& T_workspace_common = Eigen::Isometry3d::Identity());
+                const Eigen::Isometry3d& T_workspace_common = Eigen::Isometry3d::Identity(),
+                const Eigen::Isometry3d& T_approach_common = Eigen::Isometry3d::Identity());
 
   const Config& config() const;
+
+  /// Goes on with other parameters, as a new instance would, but keeps the working memory.
+  /// @throw ParameterError for a value outside its range; nothing has changed then.
+  void configure(const Config& config);
 
 private:
   class Implementation;

@@ -34,12 +34,26 @@ void visitParameters(ConfigT& c, Visitor&& visit)
         "radius of the largest circle inscribed in the hand's capture region");
   visit("hand/finger_thickness", c.hand.finger_thickness, Real{0.001, 0.1}, "m",
         "thickness of the thickest finger: the gap that must be clear");
+  visit("hand/palm_width", c.hand.palm_width, Real{0.001, 0.5}, "m",
+        "of palm and fingers along the axis that the hand closes about");
+  visit("hand/palm_depth", c.hand.palm_depth, Real{0.0, 1.0}, "m",
+        "from the palm's face back: what follows the palm along its approach");
 
   visit("sampling/samples", c.sampling.samples, Count{1, 1000000}, "", "neighborhoods drawn per cloud");
   visit("sampling/seed", c.sampling.seed, Range<std::uint64_t>{0, (std::uint64_t{1} << 53) - 1}, "",
         "of the random draws, the same for every cloud");
   visit("sampling/screen", c.sampling.screen,
         "sample first where the cloud falls away on both sides, evenly over the image");
+  visit("sampling/importance", c.sampling.importance,
+        "draw samples of later rounds near the shells that earlier ones found");
+  visit("sampling/first_share", c.sampling.first_share, Real{0.01, 1.0}, "",
+        "of the samples, those of the first round");
+  visit("sampling/uniform_share", c.sampling.uniform_share, Real{0.0, 1.0}, "",
+        "of the samples of later rounds, those that are drawn like the first ones");
+  visit("sampling/spread", c.sampling.spread, Real{0.0, 0.5}, "m",
+        "standard deviation of a sample near a shell from that shell's sample");
+  visit("sampling/time_budget_ms", c.sampling.time_budget_ms, Real{0.0, 60000.0}, "ms",
+        "of wall time after which no more samples are examined; 0: no limit. With a limit results may differ");
 
   const Real limit{-WorkspaceConfig::kNoLimit, WorkspaceConfig::kNoLimit};
   visit("workspace/min_x", c.workspace.min_x, limit, "m", "least x of the box that samples are drawn in");
@@ -101,6 +115,48 @@ void visitParameters(ConfigT& c, Visitor&& visit)
         "thresholds that count points follow the density of points at the sample's range");
   visit("shell/reference_spacing", c.shell.reference_spacing, Real{0.0001, 0.1}, "m",
         "distance between neighboring pixels' points at which those thresholds hold as given");
+
+  const double pi = 3.14159265358979323846;
+  visit("handles/max_angle", c.handles.max_angle, Real{0.0, pi / 2}, "rad",
+        "between the axes of shells that follow one another along a handle");
+  visit("handles/max_distance", c.handles.max_distance, Real{0.0, 0.1}, "m", "between their axes");
+  visit("handles/max_radius_difference", c.handles.max_radius_difference, Real{0.0, 0.5}, "m",
+        "between their inner radii");
+  visit("handles/max_gap", c.handles.max_gap, Real{0.0, 0.5}, "m", "along the axis, between shells of one handle");
+  visit("handles/min_support", c.handles.min_support, Count{1, 100000}, "", "shells; fewer are no handle");
+
+  visit("hand_poses/count", c.hand_poses.count, Count{0, 360}, "",
+        "directions of approach that are tried on each ring around a handle; 0: no hand poses");
+  visit("hand_poses/approach_distance", c.hand_poses.approach_distance, Real{0.0, 1.0}, "m",
+        "by which the hand moves forward to where it closes");
+  visit("hand_poses/min_observed_free", c.hand_poses.min_observed_free, Real{0.0, 1.0}, "",
+        "share of the approach corridor that the sensor saw through");
+  const Real component{-1.0, 1.0};
+  visit("hand_poses/approach_x", c.hand_poses.approach_x, component, "",
+        "of the direction in which a hand should approach; all zero: any");
+  visit("hand_poses/approach_y", c.hand_poses.approach_y, component, "", "of that direction");
+  visit("hand_poses/approach_z", c.hand_poses.approach_z, component, "", "of that direction");
+  visit("hand_poses/max_approach_angle", c.hand_poses.max_approach_angle, Real{0.0, pi}, "rad",
+        "between that direction and a hand's approach");
+  const Real offset{-1.0, 1.0}, angle{-pi, pi};
+  visit("hand_poses/tool_x", c.hand_poses.tool_x, offset, "m",
+        "of the tool's frame in the hand's: poses are the tool's");
+  visit("hand_poses/tool_y", c.hand_poses.tool_y, offset, "m", "of the tool's frame in the hand's");
+  visit("hand_poses/tool_z", c.hand_poses.tool_z, offset, "m", "of the tool's frame in the hand's");
+  visit("hand_poses/tool_roll", c.hand_poses.tool_roll, angle, "rad", "of the tool's frame about the hand's x");
+  visit("hand_poses/tool_pitch", c.hand_poses.tool_pitch, angle, "rad", "then about the hand's y");
+  visit("hand_poses/tool_yaw", c.hand_poses.tool_yaw, angle, "rad", "then about the hand's z");
+
+  visit("tracking/track", c.tracking.track, "handles keep their id from cloud to cloud, and are smoothed");
+  visit("tracking/max_distance", c.tracking.max_distance, Real{0.0, 1.0}, "m",
+        "at right angles to its axis, that a handle may move between clouds");
+  visit("tracking/max_angle", c.tracking.max_angle, Real{0.0, pi / 2}, "rad", "that a handle may turn between clouds");
+  visit("tracking/smoothing_time", c.tracking.smoothing_time, Real{0.0, 60.0}, "s",
+        "over which a handle's pose and sizes are averaged; 0: not smoothed");
+  visit("tracking/min_hits", c.tracking.min_hits, Count{1, 1000}, "",
+        "clouds that a new handle must be found in before it is reported");
+  visit("tracking/lifetime", c.tracking.lifetime, Real{0.0, 60.0}, "s",
+        "for which a handle that is not found any more is still reported");
 
   visit("threads", c.threads, Count{0, 256}, "", "that work on a cloud; 0: one per core; no influence on the result");
 }

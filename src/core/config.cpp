@@ -56,6 +56,7 @@ Config paperConfig()
   Config config;
   config.preset = "paper";
   config.sampling.screen = false;
+  config.sampling.importance = false;
   config.occlusion.max_points_in_front = 20;
   config.occlusion.min_distance_in_front = 0.0;
   config.estimation.reject_concave = false;

@@ -21,9 +21,24 @@ Shell transformed(Shell shell, const Eigen::Isometry3d& T)
 const char* outcomeName(Outcome outcome)
 {
   static constexpr std::array<const char*, kOutcomes> kNames{
-      "too_few_points", "degenerate", "occluded",       "low_curvature", "concave",
-      "no_shell",       "too_short",  "unobserved_gap", "uncovered",     "shells"};
+      "too_few_points", "degenerate",     "occluded",  "low_curvature", "concave", "no_shell",
+      "too_short",      "unobserved_gap", "uncovered", "out_of_time",   "shells"};
   return kNames[static_cast<std::size_t>(outcome)];
+}
+
+std::string explainNothing(const Localization& localization)
+{
+  if (!localization.shells.empty()) {
+    return "";
+  }
+  std::string ends;
+  for (std::size_t i = 0; i < kOutcomes; ++i) {
+    if (localization.counts[i] > 0) {
+      ends += (ends.empty() ? "" : ", ") + std::to_string(localization.counts[i]) + " " +
+              outcomeName(static_cast<Outcome>(i));
+    }
+  }
+  return "no shell: of " + std::to_string(localization.sampled) + " samples " + ends;
 }
 
 }  // namespace grasp_affordances

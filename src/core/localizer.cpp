@@ -1,11 +1,14 @@
 #include "grasp_affordances/localizer.h"
 
+#include "core/hand_pose_search.h"
+#include "core/handle_finder.h"
 #include "core/prepared_views.h"
 #include "core/sample_block.h"
 #include "core/stopwatch.h"
 #include "core/thread_team.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace grasp_affordances
@@ -14,17 +17,26 @@ namespace grasp_affordances
 class Localizer::Implementation
 {
 public:
-  explicit Implementation(const Config& new_config)
-      : config(new_config), team(config.threads), blocks(team.size()), samples(config.sampling.samples)
+  explicit Implementation(const Config& new_config) { configure(new_config); }
+
+  void configure(const Config& new_config)
   {
+    if (!team || new_config.threads != config.threads) {
+      team.emplace(new_config.threads);
+    }
+    config = new_config;
+    blocks.resize(team->size());
+    samples.resize(static_cast<std::size_t>(config.sampling.samples));
   }
 
   Config config;
-  ThreadTeam team;
+  std::optional<ThreadTeam> team;
   std::vector<PosedCloud> single;  // a cloud without others
   PreparedViews views;
   std::vector<SampleBlock> blocks;    // one per thread
   std::vector<SampleResult> samples;  // one slot per sample
+  HandleFinder handle_finder;
+  HandPoseSearch hand_pose_search;
 };
 
 Localizer::Localizer(const Config& config)
@@ -49,18 +61,26 @@ Localization Localizer::localize(const Cloud& cloud)
   return result;
 }
 
-void Localizer::localize(const Cloud& cloud, Localization& result, const Eigen::Isometry3d& T_workspace_cloud)
+void Localizer::configure(const Config& config)
+{
+  validate(config);
+  implementation_->configure(config);
+}
+
+void Localizer::localize(const Cloud& cloud, Localization& result, const Eigen::Isometry3d& T_workspace_cloud,
+                         const Eigen::Isometry3d& T_approach_cloud)
 {
   std::vector<PosedCloud>& single = implementation_->single;
   single.assign(1, {&cloud, Eigen::Isometry3d::Identity()});
-  localize(single, result, T_workspace_cloud);
+  localize(single, result, T_workspace_cloud, T_approach_cloud);
 }
 
 /// AffordanceFind (Algorithm 1). The samples know nothing of one another: each writes its own slot.
 void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localization& result,
-                         const Eigen::Isometry3d& T_workspace_common)
+                         const Eigen::Isometry3d& T_workspace_common, const Eigen::Isometry3d& T_approach_common)
 {
-  auto& [config, team, single, views, blocks, samples] = *implementation_;
+  auto& [config, optional_team, single, views, blocks, samples, handle_finder, hand_pose_search] = *implementation_;
+  ThreadTeam& team = *optional_team;
   Stopwatch stopwatch, total;
   views.update(posed_clouds, config, T_workspace_common, team);
   result.milliseconds = StageTimes();
@@ -95,6 +115,13 @@ void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localizati
     result.milliseconds.fit += block.times.fit;
     result.milliseconds.shell += block.times.shell;
   }
+  stopwatch.lap();
+  handle_finder.find(views, config, result.shells, result.handles);
+  result.milliseconds.handles = stopwatch.lap();
+  for (GraspHandle& handle : result.handles) {
+    hand_pose_search.search(views, config, T_approach_common, handle);
+  }
+  result.milliseconds.hand_poses = stopwatch.lap();
   result.milliseconds.total = total.lap();
 }
 

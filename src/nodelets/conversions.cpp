@@ -41,6 +41,37 @@ CylindricalShell shellMessage(const Shell& shell)
   return message;
 }
 
+Handle handleMessage(const GraspHandle& handle, const std_msgs::Header& header)
+{
+  Handle message;
+  message.header = header;
+  message.id = handle.id;
+  message.pose = poseMessage(handle.centroid, handle.axis, handle.normal);
+  message.centroid = xyzMessage<geometry_msgs::Point>(handle.centroid);
+  message.axis = xyzMessage<geometry_msgs::Vector3>(handle.axis);
+  message.normal = xyzMessage<geometry_msgs::Vector3>(handle.normal);
+  message.radius = handle.radius;
+  message.inner_radius = handle.inner_radius;
+  message.length = handle.length;
+  for (const Eigen::Vector3d& point : handle.polyline) {
+    message.polyline.push_back(xyzMessage<geometry_msgs::Point>(point));
+  }
+  message.shells = handle.shells;
+  message.score = handle.score;
+  message.clearance = handle.clearance;
+  message.observed_free = handle.observed_free;
+  for (const GraspPose& hand : handle.hand_poses) {
+    message.hand_poses.emplace_back();
+    message.hand_poses.back().pose = poseMessage(hand.pose);
+    message.hand_poses.back().width = hand.width;
+    message.hand_poses.back().observed_free = hand.observed_free;
+    message.hand_poses.back().score = hand.score;
+  }
+  message.hits = handle.hits;
+  message.unseen_for = handle.unseen_for;
+  return message;
+}
+
 std::string sizeText(std::uint32_t width, std::uint32_t height)
 {
   return std::to_string(width) + "x" + std::to_string(height);
@@ -50,17 +81,51 @@ std::string sizeText(std::uint32_t width, std::uint32_t height)
 
 geometry_msgs::Pose poseMessage(const Shell& shell)
 {
-  Eigen::Matrix3d rotation;
-  rotation << shell.normal, shell.axis.cross(shell.normal), shell.axis;
-  const Eigen::Quaterniond orientation = Eigen::Quaterniond(rotation).normalized();
+  return poseMessage(shell.centroid, shell.axis, shell.normal);
+}
 
-  geometry_msgs::Pose pose;
-  pose.position = xyzMessage<geometry_msgs::Point>(shell.centroid);
-  pose.orientation.x = orientation.x();
-  pose.orientation.y = orientation.y();
-  pose.orientation.z = orientation.z();
-  pose.orientation.w = orientation.w();
-  return pose;
+geometry_msgs::Pose poseMessage(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis,
+                                const Eigen::Vector3d& normal)
+{
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() << normal, axis.cross(normal), axis;
+  pose.translation() = origin;
+  return poseMessage(pose);
+}
+
+geometry_msgs::Pose poseMessage(const Eigen::Isometry3d& pose)
+{
+  const Eigen::Quaterniond orientation = Eigen::Quaterniond(pose.linear()).normalized();
+  geometry_msgs::Pose message;
+  message.position = xyzMessage<geometry_msgs::Point>(pose.translation());
+  message.orientation.x = orientation.x();
+  message.orientation.y = orientation.y();
+  message.orientation.z = orientation.z();
+  message.orientation.w = orientation.w();
+  return message;
+}
+
+HandleArray handlesMessage(const std::vector<GraspHandle>& handles, const std_msgs::Header& header)
+{
+  HandleArray message;
+  message.header = header;
+  message.handles.reserve(handles.size());
+  for (const GraspHandle& handle : handles) {
+    message.handles.push_back(handleMessage(handle, header));
+  }
+  return message;
+}
+
+geometry_msgs::PoseArray handPosesMessage(const std::vector<GraspHandle>& handles, const std_msgs::Header& header)
+{
+  geometry_msgs::PoseArray message;
+  message.header = header;
+  for (const GraspHandle& handle : handles) {
+    for (const GraspPose& hand : handle.hand_poses) {
+      message.poses.push_back(poseMessage(hand.pose));
+    }
+  }
+  return message;
 }
 
 CylindricalShellArray shellsMessage(const Localization& localization, const std_msgs::Header& header)
@@ -99,7 +164,10 @@ LocalizationStatistics statisticsMessage(const Localization& localization, const
   message.too_short = count(Outcome::too_short);
   message.unobserved_gap = count(Outcome::unobserved_gap);
   message.uncovered = count(Outcome::uncovered);
+  message.out_of_time = count(Outcome::out_of_time);
   message.shells = count(Outcome::shell);
+  message.handles = static_cast<std::uint32_t>(localization.handles.size());
+  message.explanation = explainNothing(localization);
 
   message.milliseconds_total = localization.milliseconds.total;
   message.milliseconds_preparation = localization.milliseconds.preparation;
@@ -107,6 +175,8 @@ LocalizationStatistics statisticsMessage(const Localization& localization, const
   message.milliseconds_occlusion = localization.milliseconds.occlusion;
   message.milliseconds_fit = localization.milliseconds.fit;
   message.milliseconds_shell = localization.milliseconds.shell;
+  message.milliseconds_handles = localization.milliseconds.handles;
+  message.milliseconds_hand_poses = localization.milliseconds.hand_poses;
   return message;
 }
 

@@ -1,13 +1,17 @@
 #include "nodelets/localization_outputs.h"
 
 #include "grasp_affordances/CylindricalShellArray.h"
+#include "grasp_affordances/HandleArray.h"
 #include "grasp_affordances/LocalizationStatistics.h"
 #include "nodelets/conversions.h"
 
+#include <geometry_msgs/PoseArray.h>
 #include <ros/console.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <boost/make_shared.hpp>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -40,6 +44,8 @@ void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const 
     subscribe_ = std::move(subscribe);
     unsubscribe_ = std::move(unsubscribe);
     shells_ = private_node_handle.advertise<CylindricalShellArray>("shells", 1, changed, changed);
+    handles_ = private_node_handle.advertise<HandleArray>("handles", 1, changed, changed);
+    hand_poses_ = private_node_handle.advertise<geometry_msgs::PoseArray>("hand_poses", 1, changed, changed);
     markers_ = private_node_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
     statistics_ = private_node_handle.advertise<LocalizationStatistics>("statistics", 1, changed, changed);
     open_ = true;
@@ -58,7 +64,9 @@ void LocalizationOutputs::close()
 
 bool LocalizationOutputs::anybodyListens() const
 {
-  return shells_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0 || statistics_.getNumSubscribers() > 0;
+  const auto heard = [](const ros::Publisher* publisher) { return publisher->getNumSubscribers() > 0; };
+  const std::array<const ros::Publisher*, 5> all{&shells_, &handles_, &hand_poses_, &markers_, &statistics_};
+  return std::any_of(all.begin(), all.end(), heard);
 }
 
 void LocalizationOutputs::updateSubscriptions()
@@ -107,6 +115,8 @@ void LocalizationOutputs::publish(const Localization& localization, const Config
     ROS_WARN_STREAM_NAMED(name_, joined(localization.warnings));
   }
   shells_.publish(boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header)));
+  handles_.publish(boost::make_shared<HandleArray>(handlesMessage(localization.handles, header)));
+  hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(localization.handles, header)));
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
 
   auto statistics = boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, config, header));

@@ -18,9 +18,10 @@
 namespace grasp_affordances
 {
 
-/// What localizing nodelets have in common: their outputs ~shells (CylindricalShellArray), ~markers
-/// (visualization_msgs/MarkerArray) and ~statistics (LocalizationStatistics), whether anybody listens to them, and what
-/// became of the clouds. A nodelet with several cameras counts what it localizes as one, a set of clouds, as a cloud.
+/// What localizing nodelets have in common: their outputs ~shells (CylindricalShellArray), ~handles (HandleArray),
+/// ~hand_poses (geometry_msgs/PoseArray), ~markers (visualization_msgs/MarkerArray) and ~statistics
+/// (LocalizationStatistics), whether anybody listens to them, and what became of the clouds. A nodelet with several
+/// cameras counts what it localizes as one, a set of clouds, as a cloud.
 class LocalizationOutputs
 {
 public:
@@ -63,6 +64,8 @@ private:
   bool open_ = false;             // a connection that is under way at the end must not subscribe again
   bool subscribed_ = false;
   ros::Publisher shells_;
+  ros::Publisher handles_;
+  ros::Publisher hand_poses_;
   ros::Publisher markers_;
   ros::Publisher statistics_;
 

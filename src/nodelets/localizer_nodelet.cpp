@@ -161,6 +161,9 @@ void LocalizerNodelet::localize(const Arrival& arrival)
     for (Shell& shell : localization_.shells) {
       shell = transformed(shell, T_target_cloud);
     }
+    for (GraspHandle& handle : localization_.handles) {
+      grasp_affordances::transform(T_target_cloud, handle);
+    }
     header.frame_id = parameters_.target_frame;
   }
   outputs_.publish(localization_, localizer_->config(), header, arrival.time);

@@ -132,16 +132,4 @@ void printTable(std::ostream& out, const CloudSource& source, const Config& conf
   out << text.str();
 }
 
-std::string explainNothing(const Localization& localization)
-{
-  std::string ends;
-  for (std::size_t i = 0; i < kOutcomes; ++i) {
-    if (localization.counts[i] > 0) {
-      ends += (ends.empty() ? "" : ", ") + std::to_string(localization.counts[i]) + " " +
-              outcomeName(static_cast<Outcome>(i));
-    }
-  }
-  return "no shell: of " + std::to_string(localization.sampled) + " samples " + ends;
-}
-
 }  // namespace grasp_affordances

@@ -40,7 +40,4 @@ std::string toJson(const CloudSource& source, const Config& config, const Locali
 /// A heading and the first shells, for people.
 void printTable(std::ostream& out, const CloudSource& source, const Config& config, const Localization& localization);
 
-/// Why a cloud has no shells: in how many samples each stage ended.
-std::string explainNothing(const Localization& localization);
-
 }  // namespace grasp_affordances
