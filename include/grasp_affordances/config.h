@@ -45,8 +45,8 @@ struct SamplingConfig
   std::uint64_t seed = 1;       ///< every cloud is seeded with it afresh
   bool screen = true;           ///< sample first where the cloud falls away on both sides, evenly over the image
   bool importance = true;       ///< draw samples of later rounds near the shells that earlier ones found
-  double first_share = 0.5;     ///< of the samples, those of the first round
-  double uniform_share = 0.3;   ///< of the samples of later rounds, those that are drawn like the first ones
+  double first_share = 0.6;     ///< of the samples, those of the first round
+  double uniform_share = 0.2;   ///< of the samples of later rounds, those that are drawn like the first ones
   double spread = 0.01;         ///< m, standard deviation of a sample near a shell from that shell's sample
   double time_budget_ms = 0.0;  ///< ms of wall time after which no more samples are examined; 0: no limit
 };
@@ -113,9 +113,9 @@ struct WorkspaceConfig
 struct HandlesConfig
 {
   double max_angle = 0.6;                ///< rad, between the axes of shells that follow one another along a handle
-  double max_distance = 0.008;           ///< m, between their axes
+  double max_distance = 0.005;           ///< m, between their axes
   double max_radius_difference = 0.012;  ///< m, between their inner radii
-  double max_gap = 0.01;                 ///< m along the axis, between shells of one handle
+  double max_gap = 0.005;                ///< m along the axis, between shells of one handle
   int min_support = 3;                   ///< shells; fewer are no handle
 };
 

@@ -34,6 +34,7 @@ struct GraspHandle
   std::vector<Eigen::Vector3d> polyline;               ///< the axis: two points or, of a bent one, more
   std::vector<std::uint32_t> shells;                   ///< indices into Localization::shells, ascending
   double score = 0.0;                                  ///< in [0, 1]: see HandleFinder
+  double agreement = 0.0;      ///< in [0, 1]: of the samples drawn on it, those that ended as one of its shells
   double clearance = 0.0;             ///< in [0, 1]: 1 for gaps without a point, 0 where they nearly block
   double observed_free = 0.0;         ///< share of the gaps that the sensor saw through; NaN without a range image
   std::vector<GraspPose> hand_poses;  ///< the best first

@@ -2,72 +2,274 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace grasp_affordances
 {
 namespace
 {
 
-/// Distance of one shell's centroid from another one's axis, and along it beyond its end.
-bool follows(const Shell& a, const Shell& b, const HandlesConfig& config)
+constexpr double kMargin = 0.002;         // m beyond the inner radius, for noise of the surface
+constexpr std::size_t kMostPoints = 600;  // that a bar is fitted to
+
+/// An order that does not depend on that of the samples.
+bool standsBefore(const Shell* a, const Shell* b)
 {
-  const Eigen::Vector3d offset = b.centroid - a.centroid;
-  const double along = offset.dot(a.axis);
-  const double across = (offset - along * a.axis).norm();
-  return std::abs(a.axis.dot(b.axis)) >= std::cos(config.max_angle) && across <= config.max_distance &&
-         std::abs(along) <= (a.length + b.length) / 2 + config.max_gap &&
-         std::abs(a.inner_radius - b.inner_radius) <= config.max_radius_difference;
+  const auto key = [](const Shell& s) {
+    return std::make_tuple(s.centroid.x(), s.centroid.y(), s.centroid.z(), s.axis.x(), s.axis.y(), s.axis.z(),
+                           s.inner_radius, s.length);
+  };
+  return key(*a) < key(*b);
+}
+
+/// m, one standard deviation of the depth of an Xtion at a depth.
+double depthNoise(double depth)
+{
+  return 0.0008 + 0.0016 * depth * depth;
+}
+
+double lengthOf(const std::vector<Eigen::Vector3d>& polyline)
+{
+  double length = 0.0;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    length += (polyline[i] - polyline[i - 1]).norm();
+  }
+  return length;
+}
+
+/// Place and direction in the middle of a polyline's length.
+void middleOf(const std::vector<Eigen::Vector3d>& polyline, Eigen::Vector3d& place, Eigen::Vector3d& direction)
+{
+  double rest = lengthOf(polyline) / 2;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    const Eigen::Vector3d step = polyline[i] - polyline[i - 1];
+    const double length = step.norm();
+    if (rest <= length || i + 1 == polyline.size()) {
+      direction = length > 0.0 ? Eigen::Vector3d(step / length) : Eigen::Vector3d::UnitZ();
+      place = polyline[i - 1] + rest * direction;
+      return;
+    }
+    rest -= length;
+  }
+}
+
+/// Of a point from the stretches of a polyline; infinite beyond the ends.
+double distanceFrom(const std::vector<Eigen::Vector3d>& polyline, const Eigen::Vector3d& point)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    const Eigen::Vector3d step = polyline[i] - polyline[i - 1], offset = point - polyline[i - 1];
+    const double along = offset.dot(step) / step.squaredNorm();
+    const bool first = i == 1, last = i + 1 == polyline.size();
+    if ((along >= 0.0 || !first) && (along <= 1.0 || !last)) {
+      least = std::min(least, (offset - std::clamp(along, 0.0, 1.0) * step).norm());
+    }
+  }
+  return least;
+}
+
+double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace
 
-void HandleFinder::find(const PreparedViews& /*views*/, const Config& config, const std::vector<Shell>& shells,
-                        std::vector<GraspHandle>& handles)
+void HandleFinder::find(const PreparedViews& views, const Config& config, const PreparedViews::SamplePoint* samples,
+                        std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles)
 {
-  handles.clear();
-  groups_.clear();
-  std::vector<bool> grouped(shells.size(), false);
-  for (std::uint32_t first = 0; first < shells.size(); ++first) {
-    if (grouped[first]) {
-      continue;
-    }
-    grouped[first] = true;
-    groups_.push_back({first});
-    auto& group = groups_.back();
-    for (std::size_t next = 0; next < group.size(); ++next) {
-      for (std::uint32_t i = 0; i < shells.size(); ++i) {
-        if (!grouped[i] && (follows(shells[group[next]], shells[i], config.handles) ||
-                            follows(shells[i], shells[group[next]], config.handles))) {
-          grouped[i] = true;
-          group.push_back(i);
-        }
-      }
-    }
-    std::sort(group.begin(), group.end());
+  samples_.clear();
+  for (std::size_t i = 0; i < sample_count; ++i) {
+    const auto& [view, point] = samples[i];
+    samples_.push_back(views.T_common_view(view) * views[view].cloud->point(point).cast<double>());
   }
-  std::sort(groups_.begin(), groups_.end(), [](const auto& a, const auto& b) {
-    return a.size() != b.size() ? a.size() > b.size() : a.front() < b.front();
-  });
-  for (const auto& group : groups_) {
+  groups_.update(shells, config.handles);
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const ShellGroups::Group group = groups_[g];
     if (group.size() < static_cast<std::size_t>(config.handles.min_support)) {
       continue;
     }
-    GraspHandle handle;
-    const Shell& shell = shells[group.front()];
-    handle.id = static_cast<std::uint32_t>(handles.size() + 1);
-    handle.centroid = shell.centroid;
-    handle.axis = shell.axis;
-    handle.normal = shell.normal;
-    handle.radius = shell.inner_radius;
-    handle.inner_radius = shell.inner_radius;
-    handle.length = shell.length;
-    handle.polyline = {shell.centroid - shell.length / 2 * shell.axis, shell.centroid + shell.length / 2 * shell.axis};
-    handle.shells = group;
-    handle.clearance = 1.0;
-    handle.observed_free = shell.observed_free;
-    handle.score = static_cast<double>(group.size()) / static_cast<double>(group.size() + 5);
-    handles.push_back(handle);
+    if (handles.size() == count) {
+      handles.emplace_back();
+    }
+    GraspHandle& handle = handles[count++];
+    handle.shells.assign(group.begin(), group.end());
+    members_.clear();
+    for (const std::uint32_t i : group) {
+      members_.push_back(&shells[i]);
+    }
+    std::sort(members_.begin(), members_.end(), standsBefore);
+    describe(views, config, handle);
+    rate(config, handle);
   }
+  handles.resize(count);
+  std::sort(handles.begin(), handles.end(), [](const GraspHandle& a, const GraspHandle& b) {
+    const auto key = [](const GraspHandle& h) {
+      return std::make_tuple(-h.score, h.centroid.x(), h.centroid.y(), h.centroid.z());
+    };
+    return key(a) < key(b);
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    handles[i].id = static_cast<std::uint32_t>(i + 1);
+  }
+}
+
+void HandleFinder::describe(const PreparedViews& views, const Config& config, GraspHandle& handle)
+{
+  std::vector<double> radii;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const Shell* shell : members_) {
+    radii.push_back(shell->inner_radius);
+    normal += shell->normal;
+  }
+  handle.inner_radius = median(radii);
+  handle.radius = handle.inner_radius;
+  tracer_.trace(members_, axis_);
+  if (axis_.straight()) {
+    fitLine(views, handle);
+  } else {
+    fitBend(views, handle);
+  }
+  handle.polyline = axis_.polyline;
+  handle.length = lengthOf(handle.polyline);
+  middleOf(handle.polyline, handle.centroid, handle.axis);
+  handle.axis = withLargestComponentPositive(handle.axis);
+  const Eigen::Vector3d across = normal - normal.dot(handle.axis) * handle.axis;
+  handle.normal =
+      across.norm() > 1e-6 * static_cast<double>(members_.size()) ? across.normalized() : handle.axis.unitOrthogonal();
+  handle.inner_radius = std::min(std::max(handle.inner_radius, handle.radius), config.hand.capture_radius);
+}
+
+/// The points that any view measured within a sphere, in the common frame.
+void HandleFinder::gatherPoints(const PreparedViews& views, const Eigen::Vector3d& center, double radius)
+{
+  points_.clear();
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    const Eigen::Isometry3d& T_common_view = views.T_common_view(view);
+    const Eigen::Vector3d own = T_common_view.inverse() * center;
+    views[view].search->withinRadius(own.cast<float>(), static_cast<float>(radius), neighborhood_);
+    for (std::size_t i = 0; i < neighborhood_.size(); ++i) {
+      points_.push_back(T_common_view * neighborhood_.point(i).cast<double>());
+    }
+  }
+}
+
+/// Of the points that were gathered those about a bar's axis; of many, some that are evenly spread among them.
+void HandleFinder::keepAlong(const FittedBar& bar, double half_length, double radius)
+{
+  near_.clear();
+  for (const Eigen::Vector3d& point : points_) {
+    const Eigen::Vector3d offset = point - bar.origin;
+    const double along = offset.dot(bar.axis);
+    if (std::abs(along) <= half_length && offset.squaredNorm() - along * along <= radius * radius) {
+      near_.push_back(point);
+    }
+  }
+  if (near_.size() > kMostPoints) {
+    for (std::size_t i = 0; i < kMostPoints; ++i) {
+      near_[i] = near_[i * near_.size() / kMostPoints];
+    }
+    near_.resize(kMostPoints);
+  }
+}
+
+void HandleFinder::fitLine(const PreparedViews& views, GraspHandle& handle)
+{
+  const Eigen::Vector3d first = axis_.polyline.front(), last = axis_.polyline.back();
+  FittedBar bar;
+  bar.origin = (first + last) / 2;
+  bar.axis = (last - first).normalized();
+  bar.radius = handle.inner_radius;
+  const double half_length = (last - first).norm() / 2;
+  const double reach = handle.inner_radius + kMargin;
+  gatherPoints(views, bar.origin, std::hypot(half_length, reach));
+  keepAlong(bar, half_length, reach);
+  BarPrior prior;
+  prior.tilt = axis_.round ? 1e-3 : 0.15;
+  prior.taper = axis_.round ? 1e-3 : 0.1;
+  const auto fitted = fitBar(near_, bar, prior, depthNoise(bar.origin.norm()));
+  if (!fitted || fitted->radius > handle.inner_radius + kMargin) {
+    return;
+  }
+  handle.radius = fitted->radius;
+  axis_.polyline.front() = fitted->origin - half_length * fitted->axis;
+  axis_.polyline.back() = fitted->origin + half_length * fitted->axis;
+}
+
+/// Moves the points of the axis to the middle of the surface around each, then fits a short bar in the middle.
+void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
+{
+  constexpr double kHalfLength = 0.01;  // m
+  const double reach = handle.inner_radius + kMargin;
+  std::vector<Eigen::Vector3d>& line = axis_.polyline;
+  BarPrior prior;
+  prior.tilt = 1e-3;
+  prior.taper = 1e-3;
+  const std::vector<Eigen::Vector3d> traced = line;
+  for (std::size_t i = 0; i < traced.size(); ++i) {
+    FittedBar bar;
+    bar.origin = traced[i];
+    bar.axis = (traced[std::min(i + 1, traced.size() - 1)] - traced[i > 0 ? i - 1 : 0]).normalized();
+    bar.radius = handle.inner_radius;
+    gatherPoints(views, bar.origin, std::hypot(kHalfLength, reach));
+    keepAlong(bar, kHalfLength, reach);
+    const auto fitted = fitBar(near_, bar, prior, depthNoise(bar.origin.norm()));
+    if (fitted && fitted->radius <= handle.inner_radius + kMargin) {
+      line[i] = fitted->origin;
+    }
+  }
+  FittedBar bar;
+  middleOf(line, bar.origin, bar.axis);
+  bar.radius = handle.inner_radius;
+  gatherPoints(views, bar.origin, std::hypot(2 * kHalfLength, reach));
+  keepAlong(bar, 2 * kHalfLength, reach);
+  const auto fitted = fitBar(near_, bar, prior, depthNoise(bar.origin.norm()));
+  if (fitted && fitted->radius <= handle.inner_radius + kMargin) {
+    handle.radius = fitted->radius;
+  }
+}
+
+/// Of the samples that were drawn within the handle, the share that ended as one of its shells.
+double HandleFinder::agreement(const GraspHandle& handle) const
+{
+  const double reach = handle.inner_radius + kMargin;
+  const double farthest = handle.length / 2 + reach;
+  std::size_t within = 0;
+  for (const Eigen::Vector3d& sample : samples_) {
+    if ((sample - handle.centroid).squaredNorm() <= farthest * farthest &&
+        distanceFrom(handle.polyline, sample) <= reach) {
+      ++within;
+    }
+  }
+  return std::min(1.0, static_cast<double>(members_.size()) / static_cast<double>(std::max(within, members_.size())));
+}
+
+void HandleFinder::rate(const Config& config, GraspHandle& handle) const
+{
+  const auto count = static_cast<double>(members_.size());
+  double in_gap = 0.0, observed = 0.0;
+  for (const Shell* shell : members_) {
+    const double lengths = std::max(1.0, shell->length / config.shell.clearance_length);
+    in_gap += std::min(1.0, shell->points_in_gap / (lengths * config.shell.gap_points_to_block));
+    observed += shell->observed_free;
+  }
+  handle.agreement = agreement(handle);
+  handle.clearance = 1.0 - in_gap / count;
+  handle.observed_free = observed / count;
+  constexpr double kHalfSupport = 5.0;  // shells
+  const double support = count / (count + kHalfSupport);
+  const double length = std::min(1.0, handle.length / (2.0 * config.shell.clearance_length));
+  double product = support * handle.clearance * length;
+  double factors = 3.0;
+  if (std::isfinite(handle.observed_free)) {
+    product *= std::min(1.0, 2.0 * handle.observed_free);
+    factors += 1.0;
+  }
+  handle.score = std::pow(product, 1.0 / factors);
 }
 
 }  // namespace grasp_affordances

@@ -4,7 +4,12 @@
 #include "grasp_affordances/handle.h"
 #include "grasp_affordances/localization.h"
 
+#include "core/cylinder_fit.h"
+#include "core/handle_axis.h"
 #include "core/prepared_views.h"
+#include "core/shell_groups.h"
+
+#include <Eigen/Core>
 
 #include <cstddef>
 #include <cstdint>
@@ -13,16 +18,37 @@
 namespace grasp_affordances
 {
 
-/// Groups shells that share an axis into handles.
+/// Groups shells that share an axis into handles, and fits their axis and radius to the cloud's points inside them.
+///
+/// The score of a handle is the geometric mean of four numbers in [0, 1]: support n / (n + 5) of n shells; clearance;
+/// observed free space, twice the shells' mean share, at most 1 (left out without a range image); and length over twice
+/// the clearance length, at most 1.
+///
+/// Equal shells in another order give equal handles. Keeps its memory.
 class HandleFinder
 {
 public:
   /// The handles of the shells of one localization, the best first, without hand poses.
-  void find(const PreparedViews& views, const Config& config, const std::vector<Shell>& shells,
-            std::vector<GraspHandle>& handles);
+  /// @param samples  all points that samples were drawn at
+  void find(const PreparedViews& views, const Config& config, const PreparedViews::SamplePoint* samples,
+            std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles);
 
 private:
-  std::vector<std::vector<std::uint32_t>> groups_;
+  void describe(const PreparedViews& views, const Config& config, GraspHandle& handle);
+  void gatherPoints(const PreparedViews& views, const Eigen::Vector3d& center, double radius);
+  void keepAlong(const FittedBar& bar, double half_length, double radius);
+  void fitLine(const PreparedViews& views, GraspHandle& handle);
+  void fitBend(const PreparedViews& views, GraspHandle& handle);
+  double agreement(const GraspHandle& handle) const;
+  void rate(const Config& config, GraspHandle& handle) const;
+
+  ShellGroups groups_;
+  std::vector<const Shell*> members_;  // of the handle that is worked on
+  AxisTracer tracer_;
+  SharedAxis axis_;
+  Neighborhood neighborhood_;
+  std::vector<Eigen::Vector3d> points_, near_;
+  std::vector<Eigen::Vector3d> samples_;  // m, in the common frame
 };
 
 }  // namespace grasp_affordances

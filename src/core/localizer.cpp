@@ -4,6 +4,7 @@
 #include "core/handle_finder.h"
 #include "core/prepared_views.h"
 #include "core/sample_block.h"
+#include "core/sample_draw.h"
 #include "core/stopwatch.h"
 #include "core/thread_team.h"
 
@@ -29,10 +30,43 @@ public:
     samples.resize(static_cast<std::size_t>(config.sampling.samples));
   }
 
+  /// Examines the samples [begin, end) and adds what they find. They know nothing of one another: each writes its own
+  /// slot.
+  void examine(std::size_t begin, std::size_t end, Localization& result)
+  {
+    if (config.estimation.estimator == Estimator::normals) {
+      Stopwatch stopwatch;
+      views.estimateNormals(config, draw.points() + begin, end - begin, *team);
+      result.milliseconds.preparation += stopwatch.lap();
+    }
+    for (SampleBlock& block : blocks) {
+      block.times = StageTimes();
+    }
+    constexpr std::size_t kSize = SampleBlock::kSamples;
+    team->forEach((end - begin + kSize - 1) / kSize, [&](std::size_t i, std::size_t member) {
+      const std::size_t first = begin + i * kSize, last = std::min(first + kSize, end);
+      blocks[member].examine(views, config, first, last, draw.points() + first, &samples[first]);
+    });
+    for (std::size_t i = begin; i < end; ++i) {
+      ++result.counts[static_cast<std::size_t>(samples[i].outcome)];
+      if (samples[i].outcome == Outcome::shell) {
+        result.shells.push_back(samples[i].shell);
+      }
+    }
+    result.sampled += static_cast<std::uint32_t>(end - begin);
+    for (const SampleBlock& block : blocks) {
+      result.milliseconds.neighborhoods += block.times.neighborhoods;
+      result.milliseconds.occlusion += block.times.occlusion;
+      result.milliseconds.fit += block.times.fit;
+      result.milliseconds.shell += block.times.shell;
+    }
+  }
+
   Config config;
   std::optional<ThreadTeam> team;
   std::vector<PosedCloud> single;  // a cloud without others
   PreparedViews views;
+  SampleDraw draw;
   std::vector<SampleBlock> blocks;    // one per thread
   std::vector<SampleResult> samples;  // one slot per sample
   HandleFinder handle_finder;
@@ -75,51 +109,34 @@ void Localizer::localize(const Cloud& cloud, Localization& result, const Eigen::
   localize(single, result, T_workspace_cloud, T_approach_cloud);
 }
 
-/// AffordanceFind (Algorithm 1). The samples know nothing of one another: each writes its own slot.
+/// AffordanceFind (Algorithm 1), and what becomes of its shells.
 void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localization& result,
                          const Eigen::Isometry3d& T_workspace_common, const Eigen::Isometry3d& T_approach_common)
 {
-  auto& [config, optional_team, single, views, blocks, samples, handle_finder, hand_pose_search] = *implementation_;
-  ThreadTeam& team = *optional_team;
+  Implementation& own = *implementation_;
   Stopwatch stopwatch, total;
-  views.update(posed_clouds, config, T_workspace_common, team);
+  result.shells.clear();
+  result.counts.fill(0);
+  result.sampled = 0;
   result.milliseconds = StageTimes();
+  own.views.update(posed_clouds, own.config, T_workspace_common, *own.team);
+  result.points = own.views.measured;
+  result.threads = static_cast<std::uint32_t>(own.team->size());
+  result.warnings = own.views.warnings;
+  result.view_disagreement = own.views.disagreement;
   result.milliseconds.preparation = stopwatch.lap();
 
-  const std::size_t count = views.hasSamples() ? samples.size() : 0;
-  for (SampleBlock& block : blocks) {
-    block.times = StageTimes();
-  }
-  constexpr std::size_t kSize = SampleBlock::kSamples;
-  team.forEach((count + kSize - 1) / kSize, [&](std::size_t i, std::size_t member) {
-    const std::size_t begin = i * kSize, end = std::min(begin + kSize, count);
-    blocks[member].examine(views, config, begin, end, &samples[begin]);
-  });
-
-  result.points = views.measured;
-  result.sampled = static_cast<std::uint32_t>(count);
-  result.threads = static_cast<std::uint32_t>(team.size());
-  result.warnings = views.warnings;
-  result.view_disagreement = views.disagreement;
-  result.counts.fill(0);
-  result.shells.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    ++result.counts[static_cast<std::size_t>(samples[i].outcome)];
-    if (samples[i].outcome == Outcome::shell) {
-      result.shells.push_back(samples[i].shell);
-    }
-  }
-  for (const SampleBlock& block : blocks) {
-    result.milliseconds.neighborhoods += block.times.neighborhoods;
-    result.milliseconds.occlusion += block.times.occlusion;
-    result.milliseconds.fit += block.times.fit;
-    result.milliseconds.shell += block.times.shell;
+  own.draw.start(own.views, own.config);
+  for (std::size_t begin = 0; begin < own.draw.size();) {
+    const std::size_t end = own.draw.drawRound(own.views, own.config, own.samples.data(), *own.team);
+    own.examine(begin, end, result);
+    begin = end;
   }
   stopwatch.lap();
-  handle_finder.find(views, config, result.shells, result.handles);
+  own.handle_finder.find(own.views, own.config, own.draw.points(), own.draw.size(), result.shells, result.handles);
   result.milliseconds.handles = stopwatch.lap();
   for (GraspHandle& handle : result.handles) {
-    hand_pose_search.search(views, config, T_approach_common, handle);
+    own.hand_pose_search.search(own.views, own.config, T_approach_common, handle);
   }
   result.milliseconds.hand_poses = stopwatch.lap();
   result.milliseconds.total = total.lap();

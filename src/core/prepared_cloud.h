@@ -45,6 +45,9 @@ public:
   /// The points that samples are drawn from: the measured ones within the workspace.
   const std::vector<std::uint32_t>& points() const { return limited_ ? within_ : measured; }
 
+  /// Whether samples may be drawn at a measured point.
+  bool allows(std::uint32_t point) const { return !limited_ || is_within_[point] != 0; }
+
   /// Searches the range image; null where there is none.
   const WindowSearch* windowSearch() const { return image && window_search_ ? &*window_search_ : nullptr; }
 

@@ -61,7 +61,9 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
     warnings.emplace_back("nothing to localize: no measured point lies within the workspace");
   }
   if (hasSamples() && config.estimation.estimator == Estimator::normals) {
-    estimateNormals(config, team);
+    for (const View& view : views_) {
+      view.cloud->normals.reset(view.cloud->cloud->size());
+    }
   }
 }
 
@@ -158,7 +160,11 @@ bool PreparedViews::sawThrough(std::size_t view, const Eigen::Vector3d& point, d
 PreparedViews::SamplePoint PreparedViews::samplePoint(const SamplingConfig& config, std::uint64_t i) const
 {
   const std::vector<std::uint32_t>& screened = size() == 1 ? views_[0].cloud->screen.points() : screened_;
-  const std::uint32_t point = grasp_affordances::samplePoint(samplePoints(), screened, config, i);
+  return viewOf(grasp_affordances::samplePoint(samplePoints(), screened, config, i));
+}
+
+PreparedViews::SamplePoint PreparedViews::viewOf(std::uint32_t point) const
+{
   if (size() == 1) {
     return {0, point};
   }
@@ -275,17 +281,15 @@ std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const SamplePoint& sam
 }
 
 /// Those of all points in the neighborhoods of the samples that are not occluded.
-void PreparedViews::estimateNormals(const Config& config, ThreadTeam& team)
+void PreparedViews::estimateNormals(const Config& config, const SamplePoint* samples, std::size_t count,
+                                    ThreadTeam& team)
 {
-  for (const View& view : views_) {
-    view.cloud->normals.reset(view.cloud->cloud->size());
-  }
   neighborhoods_.resize(2 * team.size());
   spheres_.resize(size() * team.size());
-  team.forEach(static_cast<std::size_t>(config.sampling.samples), [&](std::size_t i, std::size_t member) {
+  team.forEach(count, [&](std::size_t i, std::size_t member) {
     Neighborhood& neighborhood = neighborhoods_[2 * member];
     SphereView* spheres = &spheres_[member * size()];
-    const SamplePoint sample = samplePoint(config.sampling, i);
+    const SamplePoint& sample = samples[i];
     gather(sample, config, true, neighborhood, spheres, neighborhoods_[2 * member + 1]);
     if (!config.occlusion.filter || !occluded(config.occlusion, spheres)) {
       visitParts(sample, spheres, [&](std::size_t view, std::size_t begin, std::size_t count) {

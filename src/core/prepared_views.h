@@ -49,6 +49,12 @@ public:
   bool hasSamples() const { return !views_.empty() && !samplePoints().empty(); }
   SamplePoint samplePoint(const SamplingConfig& config, std::uint64_t i) const;
 
+  /// The point of this number, where the points of all clouds are counted, one cloud after the other.
+  SamplePoint viewOf(std::uint32_t point) const;
+
+  /// Estimates, for the Normals variation, the surface normals that these samples need and that are not known yet.
+  void estimateNormals(const Config& config, const SamplePoint* samples, std::size_t count, ThreadTeam& team);
+
   /// Whether all views are range images.
   bool allHaveImages() const;
 
@@ -110,7 +116,6 @@ private:
   void compareViews(ThreadTeam& team);
   void uncoverHiddenSurfaces(double margin, ThreadTeam& team);
   bool sawThrough(std::size_t view, const Eigen::Vector3d& point, double margin) const;
-  void estimateNormals(const Config& config, ThreadTeam& team);
 
   std::deque<PreparedCloud> clouds_;
   std::vector<View> views_;

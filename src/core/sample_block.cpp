@@ -64,14 +64,14 @@ void SampleBlock::Remaining::pass(Stage&& stage)
 }
 
 void SampleBlock::examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-                          SampleResult* results)
+                          const PreparedViews::SamplePoint* points, SampleResult* results)
 {
   Remaining all;
   spheres_.resize(kSamples * views.size());
   for (std::uint64_t i = begin; i < end; ++i) {
     Sample& sample = samples_[i - begin];
     sample.number = i;
-    sample.point = views.samplePoint(config.sampling, i);
+    sample.point = points[i - begin];
     sample.spheres = &spheres_[(i - begin) * views.size()];
     sample.result = &results[i - begin];
     sample.result->outcome = Outcome::shell;

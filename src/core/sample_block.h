@@ -34,9 +34,10 @@ class SampleBlock
 public:
   static constexpr std::size_t kSamples = 64;
 
-  /// Examines the samples [begin, end), at most kSamples; the result of the first goes to results[0].
+  /// Examines the samples [begin, end), at most kSamples. The first is drawn at points[0], its result goes to
+  /// results[0].
   void examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-               SampleResult* results);
+               const PreparedViews::SamplePoint* points, SampleResult* results);
 
   StageTimes times;  ///< summed over the samples since it was last reset
 

@@ -12,14 +12,17 @@ void SurfaceNormals::reset(std::size_t points)
     required_ = std::vector<std::atomic<std::uint8_t>>(points);
   }
   for (auto& required : required_) {
-    required.store(0, std::memory_order_relaxed);
+    required.store(kNotRequired, std::memory_order_relaxed);
   }
 }
 
 void SurfaceNormals::require(const std::uint32_t* points, std::size_t count)
 {
   for (std::size_t i = 0; i < count; ++i) {
-    required_[points[i]].store(1, std::memory_order_relaxed);
+    std::atomic<std::uint8_t>& required = required_[points[i]];
+    if (required.load(std::memory_order_relaxed) == kNotRequired) {
+      required.store(kRequired, std::memory_order_relaxed);
+    }
   }
 }
 
@@ -30,7 +33,8 @@ void SurfaceNormals::listRequired(const Cloud& cloud, std::size_t stride)
   const std::size_t column_stride = cloud.organized() ? stride : stride * stride;
   for (std::size_t row = 0; row < rows; row += stride) {
     for (std::size_t i = row * columns; i < (row + 1) * columns; i += column_stride) {
-      if (required_[i].load(std::memory_order_relaxed) != 0) {
+      if (required_[i].load(std::memory_order_relaxed) == kRequired) {
+        required_[i].store(kDone, std::memory_order_relaxed);
         points_.push_back(static_cast<std::uint32_t>(i));
       }
     }

@@ -28,7 +28,8 @@ public:
   /// Asks for the normals of points, by their indices. Safe to call from many threads.
   void require(const std::uint32_t* points, std::size_t count);
 
-  /// Computes what was asked for: the planes that fit the points within `radius` (m) of each point.
+  /// Computes what was asked for since it was last called: the planes that fit the points within `radius` (m) of each
+  /// point.
   /// @param stride 1 for all points that were asked for; otherwise those of every stride-th row and column, where the
   /// cloud is not organized of every stride^2-th point.
   void compute(const Cloud& cloud, const NeighborhoodSearch& search, double radius, std::size_t stride,
@@ -38,6 +39,8 @@ public:
   const Normals& normals() const { return normals_; }
 
 private:
+  static constexpr std::uint8_t kNotRequired = 0, kRequired = 1, kDone = 2;
+
   void listRequired(const Cloud& cloud, std::size_t stride);
 
   std::vector<std::atomic<std::uint8_t>> required_;  // per point
