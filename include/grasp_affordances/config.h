@@ -41,7 +41,7 @@ enum class NormalsMode
 
 struct SamplingConfig
 {
-  int samples = 4000;           ///< neighborhoods drawn per cloud (n of Algorithm 1)
+  int samples = 2000;           ///< neighborhoods drawn per cloud (n of Algorithm 1)
   std::uint64_t seed = 1;       ///< every cloud is seeded with it afresh
   bool screen = true;           ///< sample first where the cloud falls away on both sides, evenly over the image
   bool importance = true;       ///< draw samples of later rounds near the shells that earlier ones found
@@ -115,8 +115,9 @@ struct HandlesConfig
   double max_angle = 0.6;                ///< rad, between the axes of shells that follow one another along a handle
   double max_distance = 0.005;           ///< m, between their axes
   double max_radius_difference = 0.012;  ///< m, between their inner radii
-  double max_gap = 0.005;                ///< m along the axis, between shells of one handle
+  double max_gap = 0.01;                 ///< m along the axis, between shells on either side of a step of the radius
   int min_support = 3;                   ///< shells; fewer are no handle
+  double min_score = 0.62;               ///< handles with a lower score are left out
 };
 
 /// Poses of a hand on the ring around a handle's axis.

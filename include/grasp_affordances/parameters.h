@@ -122,8 +122,10 @@ void visitParameters(ConfigT& c, Visitor&& visit)
   visit("handles/max_distance", c.handles.max_distance, Real{0.0, 0.1}, "m", "between their axes");
   visit("handles/max_radius_difference", c.handles.max_radius_difference, Real{0.0, 0.5}, "m",
         "between their inner radii");
-  visit("handles/max_gap", c.handles.max_gap, Real{0.0, 0.5}, "m", "along the axis, between shells of one handle");
+  visit("handles/max_gap", c.handles.max_gap, Real{0.0, 0.5}, "m",
+        "along the axis, between shells on either side of a step of the radius");
   visit("handles/min_support", c.handles.min_support, Count{1, 100000}, "", "shells; fewer are no handle");
+  visit("handles/min_score", c.handles.min_score, Real{0.0, 1.0}, "", "handles with a lower score are left out");
 
   visit("hand_poses/count", c.hand_poses.count, Count{0, 360}, "",
         "directions of approach that are tried on each ring around a handle; 0: no hand poses");

@@ -55,6 +55,7 @@ Config paperConfig()
 {
   Config config;
   config.preset = "paper";
+  config.sampling.samples = 4000;
   config.sampling.screen = false;
   config.sampling.importance = false;
   config.occlusion.max_points_in_front = 20;

@@ -105,6 +105,9 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
     std::sort(members_.begin(), members_.end(), standsBefore);
     describe(views, config, handle);
     rate(config, handle);
+    if (handle.score < config.handles.min_score) {
+      --count;
+    }
   }
   handles.resize(count);
   std::sort(handles.begin(), handles.end(), [](const GraspHandle& a, const GraspHandle& b) {
@@ -263,8 +266,9 @@ void HandleFinder::rate(const Config& config, GraspHandle& handle) const
   constexpr double kHalfSupport = 5.0;  // shells
   const double support = count / (count + kHalfSupport);
   const double length = std::min(1.0, handle.length / (2.0 * config.shell.clearance_length));
-  double product = support * handle.clearance * length;
-  double factors = 3.0;
+  constexpr double kFullAgreement = 0.3;
+  double product = support * handle.clearance * length * std::min(1.0, handle.agreement / kFullAgreement);
+  double factors = 4.0;
   if (std::isfinite(handle.observed_free)) {
     product *= std::min(1.0, 2.0 * handle.observed_free);
     factors += 1.0;

@@ -20,9 +20,13 @@ namespace grasp_affordances
 
 /// Groups shells that share an axis into handles, and fits their axis and radius to the cloud's points inside them.
 ///
-/// The score of a handle is the geometric mean of four numbers in [0, 1]: support n / (n + 5) of n shells; clearance;
-/// observed free space, twice the shells' mean share, at most 1 (left out without a range image); and length over twice
-/// the clearance length, at most 1.
+/// The score of a handle is the geometric mean of five numbers in [0, 1]:
+/// - support, n / (n + 5) of n shells;
+/// - agreement: of the samples drawn within it the share that ended as one of its shells, 0.3 or more counting as 1;
+/// - clearance: 1 minus the mean of points in the gap over those that would block it;
+/// - observed free space: twice the mean share of the gaps that the sensor saw through, at most 1; left out without a
+///   range image;
+/// - length over twice the clearance length, at most 1.
 ///
 /// Equal shells in another order give equal handles. Keeps its memory.
 class HandleFinder

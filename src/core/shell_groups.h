@@ -11,9 +11,13 @@ namespace grasp_affordances
 {
 
 /// Whether two shells are about one stretch of one axis, or about stretches of a bent one that follow each other: their
-/// axes, each prolonged by half the allowed gap, come as close as `max_distance` at an angle of at most `max_angle`,
-/// and their inner radii differ by little. Or whether they are about one round thing, an apple, which has no axis of
-/// its own: then their middles nearly coincide and neither is much longer than it is wide.
+/// axes come as close as `max_distance` at an angle of at most `max_angle`, or at any angle near an end of each, which
+/// is a corner; and their inner radii differ by little. Where a bar has a step, shells about the slimmer part end
+/// before it: there, and only there, a gap is allowed, since one between equal radii means that something blocks the
+/// bar.
+///
+/// Or whether they are about one round thing, an apple, which has no axis of its own: then their middles nearly
+/// coincide and neither is much longer than it is wide.
 bool shareAxis(const Shell& a, const Shell& b, const HandlesConfig& config);
 
 /// Shells that hang together by shareAxis(), directly or through others. The groups do not depend on the order of the
