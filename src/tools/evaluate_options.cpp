@@ -238,7 +238,9 @@ void addOptions(CLI::App& app, Arguments& arguments)
   app.add_flag("--runtime", arguments.runtime,
                "measure the running time, too: 1000 to 10000 samples, k nearest neighbors, on a rendered cleaning2");
   app.add_option("--pictures", arguments.pictures,
-                 "draw at most N wrong places and N misses per scene, preset and estimator (default 10)")
+                 "draw at most N errors of each kind (wrong shells, wrong handles, misses, ...) per scene, preset and "
+                 "estimator "
+                 "(default 10)")
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
   app.add_option("--threads", arguments.threads, "frames at a time; 0: one per core; no influence on the result")

@@ -362,14 +362,16 @@ TEST(ErrorPictures, ShellsAtOnePlaceAreOneErrorAndTheWorstComeFirst)
   auto& shells = evaluation.frames[0].runs[0][1].shells;
   shells = {judged(Verdict::wrong, 0, 0.5), judged(Verdict::wrong, 0, 0.8), judged(Verdict::wrong, 0, 0.81)};
   std::vector<Error> errors = worstErrors(evaluation, 1);
-  errors.erase(std::remove_if(errors.begin(), errors.end(), [](const Error& error) { return error.variation != 0; }),
-               errors.end());
+  errors.erase(
+      std::remove_if(errors.begin(), errors.end(),
+                     [](const Error& error) { return error.variation != 0 || error.kind == Error::no_handle; }),
+      errors.end());
   ASSERT_EQ(errors.size(), 2U);
-  std::sort(errors.begin(), errors.end(), [](const Error& a, const Error& b) { return a.is_miss < b.is_miss; });
-  EXPECT_EQ(errors[0].shell, 1U);
+  EXPECT_EQ(errors[0].kind, Error::wrong_shell);
+  EXPECT_EQ(errors[0].index, 1U);
   EXPECT_EQ(errors[0].run, 1U);
   EXPECT_EQ(errors[0].count, 2U);
-  EXPECT_TRUE(errors[1].is_miss);
+  EXPECT_EQ(errors[1].kind, Error::miss);
   EXPECT_EQ(errors[1].label, 1U) << "900 points, missed in the second run";
   EXPECT_EQ(errors[1].count, 1U);
 }
