@@ -3,6 +3,7 @@
 
 precision-PRESET.png: precision per scene and estimator (figure 6 of the paper), from summary.json.
 runtime.png: running time against the number of samples (figure 7), from runtime.csv where there is one.
+samples-PRESET.png: recall against the number of samples, from samples.csv where there is one, instead of precision.
 Error bars are 95 % confidence intervals.
 """
 
@@ -77,14 +78,54 @@ def plot_runtime(rows, path):
     plt.close(figure)
 
 
+def plot_samples(rows, preset, path):
+    """Recall of affordances with at least 200 points: shells, at least one handle, exactly one handle."""
+    rows = [row for row in rows if row["preset"] == preset and row["views"] == "1"]
+    rows = [row for row in rows if row["group"] == "1"] or rows
+    curves = {"recall_200": "shells", "handle_recall_200": "at least one handle", "exactly_one_200": "one handle"}
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    figure, panels = plt.subplots(len(scenes), len(curves), figsize=(4.0 * len(curves), 3.5 * len(scenes)),
+                                  sharex=True, sharey=True, squeeze=False)
+    for scene, line_of_panels in zip(scenes, panels):
+        for (column, title), axes in zip(curves.items(), line_of_panels):
+            for estimator, importance in dict.fromkeys((row["estimator"], row["importance"]) for row in rows):
+                line = sorted((int(row["samples"]), float(row[column])) for row in rows
+                              if row["scene"] == scene and row["estimator"] == estimator
+                              and row["importance"] == importance and row[column])
+                label, color = ESTIMATORS[estimator]
+                axes.plot(*zip(*line), label="%s, importance sampling %s" % (label, importance), color=color,
+                          linestyle="-" if importance == "on" else "--", marker="o", markersize=3)
+            ticks = sorted({int(row["samples"]) for row in rows})
+            axes.set_xscale("log")
+            axes.set_xticks(ticks)
+            axes.set_xticklabels(ticks)
+            axes.minorticks_off()
+            axes.set_title("%s: %s" % (scene, title), fontsize=10)
+            axes.set_xlabel("samples")
+            axes.grid(alpha=0.3, which="both")
+    panels[0][0].set_ylabel("affordances of 200 points or more")
+    panels[0][0].legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = sys.argv[1]
     with open(os.path.join(folder, "summary.json")) as file:
         summary = json.load(file)
-    for preset in dict.fromkeys(row["preset"] for row in summary):
-        plot_precision(summary, preset, os.path.join(folder, "precision-%s.png" % preset))
+    presets = list(dict.fromkeys(row["preset"] for row in summary))
+    samples = os.path.join(folder, "samples.csv")
+    if os.path.exists(samples):
+        with open(samples) as file:
+            rows = list(csv.DictReader(file))
+        for preset in presets:
+            plot_samples(rows, preset, os.path.join(folder, "samples-%s.png" % preset))
+    else:
+        for preset in presets:
+            plot_precision(summary, preset, os.path.join(folder, "precision-%s.png" % preset))
     runtimes = os.path.join(folder, "runtime.csv")
     if os.path.exists(runtimes):
         with open(runtimes) as file:

@@ -2,16 +2,15 @@
 
 #include "evaluation/close_up.h"
 #include "evaluation/parallel.h"
-#include "grasp_affordances/parameters.h"
+#include "evaluation/report_format.h"
 #include "rendering/picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace grasp_affordances
@@ -20,83 +19,38 @@ namespace
 {
 
 constexpr Color kWrong{1.0F, 0.35F, 0.1F};
+constexpr std::array<Color, 4> kHandleColors{
+    {{0.1F, 0.6F, 1.0F}, {1.0F, 0.6F, 0.1F}, {0.9F, 0.9F, 0.2F}, {0.6F, 0.3F, 1.0F}}};
+constexpr std::array<const char*, 5> kKindNames{"wrong", "miss", "wrong-handle", "no-handle", "several-handles"};
 
-const Shell& shellOf(const Evaluation& evaluation, const Error& error)
+const Run& runOf(const Evaluation& evaluation, const Error& error)
 {
-  return evaluation.frames[error.frame].runs[error.variation][error.run].shells[error.shell].shell;
+  return evaluation.frames[error.frame].runs[error.variation][error.run];
 }
 
-std::vector<Error> wrongPlaces(const Evaluation& evaluation, std::size_t frame, std::size_t variation)
+/// The last part of a picture's name.
+std::string identifier(const Evaluation& evaluation, const Error& error)
 {
-  const double distance = evaluation.frames[frame].capture_radius;
-  const auto& runs = evaluation.frames[frame].runs[variation];
-  std::vector<Error> places;
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    for (std::size_t i = 0; i < runs[run].shells.size(); ++i) {
-      const JudgedShell& judged = runs[run].shells[i];
-      if (judged.verdict.kind != Verdict::wrong) {
-        continue;
-      }
-      const auto place = std::find_if(places.begin(), places.end(), [&](const Error& other) {
-        return (shellOf(evaluation, other).centroid - judged.shell.centroid).norm() < distance;
-      });
-      if (place != places.end()) {
-        ++place->count;
-      } else {
-        places.push_back({frame, variation, run, 1, false, i, 0});
-      }
-    }
+  switch (error.kind) {
+    case Error::wrong_shell:
+      return std::to_string(error.index);
+    case Error::wrong_handle:
+      return std::to_string(runOf(evaluation, error).handles[error.index].handle.id);
+    default:
+      return std::to_string(error.label);
   }
-  return places;
-}
-
-std::vector<Error> misses(const Evaluation& evaluation, std::size_t frame, std::size_t variation)
-{
-  const FrameResult& result = evaluation.frames[frame];
-  std::vector<Error> missed;
-  for (std::size_t i = 0; i < result.affordances.size(); ++i) {
-    const Affordance& affordance = result.affordances[i];
-    if (visiblePoints(result, i, evaluation.variations[variation].views) == 0) {
-      continue;
-    }
-    std::optional<Error> error;
-    for (std::size_t run = 0; run < result.runs[variation].size(); ++run) {
-      if (!finds(result.runs[variation][run], affordance.label)) {
-        error = error ? error : Error{frame, variation, run, 0, true, 0, affordance.label};
-        ++error->count;
-      }
-    }
-    if (error) {
-      missed.push_back(*error);
-    }
-  }
-  return missed;
-}
-
-/// Of the affordance missed.
-std::size_t affordanceIndex(const Evaluation& evaluation, const Error& error)
-{
-  const auto& affordances = evaluation.frames[error.frame].affordances;
-  const auto found = std::find_if(affordances.begin(), affordances.end(),
-                                  [&](const Affordance& affordance) { return affordance.label == error.label; });
-  return static_cast<std::size_t>(found - affordances.begin());
-}
-
-/// In the views of the variation.
-std::size_t visiblePoints(const Evaluation& evaluation, const Error& error)
-{
-  return visiblePoints(evaluation.frames[error.frame], affordanceIndex(evaluation, error),
-                       evaluation.variations[error.variation].views);
 }
 
 std::string pictureName(const Evaluation& evaluation, const Error& error)
 {
   const FrameResult& frame = evaluation.frames[error.frame];
   const auto& [config, views] = evaluation.variations[error.variation];
-  return frame.scene + "-" + std::to_string(frame.seed) + "-" + config.preset + "-" +
-         enumWord(config.estimation.estimator) + (views > 1 ? "-" + std::to_string(views) + "-views" : "") +
-         (error.is_miss ? "-miss-" : "-wrong-") + std::to_string(error.run + 1) + "-" +
-         std::to_string(error.is_miss ? error.label : error.shell);
+  std::string name = frame.scene + "-" + std::to_string(frame.seed) + "-" + config.preset + "-" + estimatorName(config);
+  if (variesSampling(evaluation)) {
+    name += "-" + std::to_string(config.sampling.samples) + "-samples-" + onOrOff(config.sampling.importance);
+  }
+  return name + (views > 1 ? "-" + std::to_string(views) + "-views" : "") + "-" + kKindNames[error.kind] + "-" +
+         std::to_string(error.run + 1) + "-" + identifier(evaluation, error);
 }
 
 std::string millimetres(double metres)
@@ -104,26 +58,66 @@ std::string millimetres(double metres)
   return std::isfinite(metres) ? std::to_string(std::lround(1000.0 * metres)) + " mm" : "?";
 }
 
-void save(const std::string& path, const ColoredCloud& view, const Shell* shell, const std::string& caption)
+/// The segments of a handle as shells without a gap.
+std::vector<Shell> segments(const GraspHandle& handle)
 {
-  Picture picture(view.cloud, view.colors);
-  if (shell != nullptr) {
-    ShellStyle style;
-    style.color = kWrong;
-    picture.drawShell(*shell, style);
+  std::vector<Shell> shells;
+  for (std::size_t i = 0; i + 1 < handle.polyline.size(); ++i) {
+    const Eigen::Vector3d along = handle.polyline[i + 1] - handle.polyline[i];
+    Shell shell;
+    shell.centroid = handle.polyline[i] + along / 2;
+    shell.axis = along.normalized();
+    shell.normal = shell.axis.unitOrthogonal();
+    shell.inner_radius = handle.inner_radius;
+    shell.length = along.norm();
+    shells.push_back(shell);
   }
+  return shells;
+}
+
+void drawHandle(Picture& picture, const GraspHandle& handle, const Color& color)
+{
+  ShellStyle style;
+  style.color = color;
+  style.gap = false;
+  for (const Shell& segment : segments(handle)) {
+    picture.drawShell(segment, style);
+  }
+}
+
+void save(Picture& picture, const std::string& path, const std::string& caption)
+{
   picture.drawCaption(caption);
   picture.save(path);
 }
 
-void drawWrong(const std::string& path, const LabelledCloud& labelled, Shell shell, const std::string& caption,
-               const std::string& section_caption)
+void saveWithShell(const std::string& path, const ColoredCloud& view, const Shell& shell, const std::string& caption)
+{
+  Picture picture(view.cloud, view.colors);
+  ShellStyle style;
+  style.color = kWrong;
+  picture.drawShell(shell, style);
+  save(picture, path, caption);
+}
+
+void drawWrongShell(const std::string& path, const LabelledCloud& labelled, Shell shell, const std::string& caption,
+                    const std::string& section_caption)
 {
   const std::vector<Color> colors = labelColors(labelled.labels);
   const double radius = 3.0 * std::hypot(shell.length / 2, shell.inner_radius + shell.thickness);
-  save(path + ".png", closeUp(labelled.cloud, colors, shell.centroid, radius), &shell, caption);
+  saveWithShell(path + ".png", closeUp(labelled.cloud, colors, shell.centroid, radius), shell, caption);
   const ColoredCloud section = crossSection(labelled.cloud, colors, shell);
-  save(path + "-section.png", section, &shell, section_caption);
+  saveWithShell(path + "-section.png", section, shell, section_caption);
+}
+
+void drawWrongHandle(const std::string& path, const LabelledCloud& labelled, const GraspHandle& handle,
+                     const std::string& caption)
+{
+  const double radius = 2.0 * (handle.length / 2 + handle.inner_radius);
+  const ColoredCloud view = closeUp(labelled.cloud, labelColors(labelled.labels), handle.centroid, radius);
+  Picture picture(view.cloud, view.colors);
+  drawHandle(picture, handle, kWrong);
+  save(picture, path + ".png", caption);
 }
 
 /// Middle and radius of the measured points of an affordance.
@@ -145,32 +139,79 @@ std::pair<Eigen::Vector3d, double> surroundingSphere(const LabelledCloud& labell
   return {middle, radius};
 }
 
-void drawMiss(const std::string& path, const LabelledCloud& labelled, std::uint32_t label, const std::string& caption)
+/// Right shells of an affordance without a handle, faint.
+void drawShellsOn(Picture& picture, const Run& run, std::uint32_t label)
+{
+  ShellStyle style;
+  style.color = kHandleColors.front();
+  style.fill_opacity = 0.0;
+  style.line_width = 1.0;
+  style.gap = false;
+  for (const JudgedShell& judged : run.shells) {
+    if (judged.verdict.affordance == label) {
+      picture.drawShell(judged.shell, style);
+    }
+  }
+}
+
+void drawHandlesOn(Picture& picture, const Run& run, std::uint32_t label)
+{
+  std::size_t drawn = 0;
+  for (const JudgedHandle& judged : run.handles) {
+    if (judged.verdict.affordance == label) {
+      drawHandle(picture, judged.handle, kHandleColors[drawn++ % kHandleColors.size()]);
+    }
+  }
+}
+
+void drawAffordance(const std::string& path, const LabelledCloud& labelled, const Run& run, const Error& error,
+                    const std::string& caption)
 {
   constexpr double kSurroundings = 0.06;  // m
-  const auto [middle, radius] = surroundingSphere(labelled, label);
+  const auto [middle, radius] = surroundingSphere(labelled, error.label);
   const ColoredCloud view =
-      closeUp(labelled.cloud, labelColors(labelled.labels, label), middle, radius + kSurroundings);
-  save(path + ".png", view, nullptr, caption);
+      closeUp(labelled.cloud, labelColors(labelled.labels, error.label), middle, radius + kSurroundings);
+  Picture picture(view.cloud, view.colors);
+  if (error.kind == Error::no_handle) {
+    drawShellsOn(picture, run, error.label);
+  }
+  drawHandlesOn(picture, run, error.label);
+  save(picture, path + ".png", caption);
+}
+
+std::string affordanceCaption(const Evaluation& evaluation, const Error& error)
+{
+  const FrameResult& frame = evaluation.frames[error.frame];
+  const std::size_t index = affordanceIndex(frame, error);
+  const Affordance& affordance = frame.affordances[index];
+  const std::size_t points = visiblePoints(frame, index, evaluation.variations[error.variation].views);
+  const std::string what = error.kind == Error::miss        ? "missed"
+                           : error.kind == Error::no_handle ? "shells but no handle"
+                                                            : "several handles";
+  return affordance.object + ", " + std::to_string(points) + " points, radius " + millimetres(affordance.radius) +
+         ", " + what + " in " + std::to_string(error.count) + " of " + std::to_string(evaluation.runs) + " runs";
 }
 
 void draw(const std::string& folder, const Evaluation& evaluation, const LabelledCloud& labelled, const Error& error)
 {
   const std::string name = pictureName(evaluation, error);
   const std::string path = folder + "/" + name;
-  if (error.is_miss) {
-    const Affordance& affordance = evaluation.frames[error.frame].affordances[affordanceIndex(evaluation, error)];
-    drawMiss(path, labelled, error.label,
-             name + ":  " + affordance.object + ", " + std::to_string(visiblePoints(evaluation, error)) +
-                 " points, radius " + millimetres(affordance.radius) + ", missed in " + std::to_string(error.count) +
-                 " of " + std::to_string(evaluation.runs) + " runs");
-    return;
+  const Run& run = runOf(evaluation, error);
+  const std::string wrong_here = name + ":  " + std::to_string(error.count) + " wrong here, radius ";
+  if (error.kind == Error::wrong_shell) {
+    const Shell& shell = run.shells[error.index].shell;
+    drawWrongShell(path, labelled, shell,
+                   wrong_here + millimetres(shell.inner_radius) + ", " + std::to_string(shell.points_in_gap) +
+                       " points in the gap",
+                   name + ":  cross-section, sensor above");
+  } else if (error.kind == Error::wrong_handle) {
+    const GraspHandle& handle = run.handles[error.index].handle;
+    drawWrongHandle(
+        path, labelled, handle,
+        wrong_here + millimetres(handle.inner_radius) + ", " + std::to_string(handle.shells.size()) + " shells");
+  } else {
+    drawAffordance(path, labelled, run, error, name + ":  " + affordanceCaption(evaluation, error));
   }
-  const Shell& shell = shellOf(evaluation, error);
-  drawWrong(path, labelled, shell,
-            name + ":  " + std::to_string(error.count) + " wrong here, radius " + millimetres(shell.inner_radius) +
-                ", " + std::to_string(shell.points_in_gap) + " points in the gap",
-            name + ":  cross-section, sensor above");
 }
 
 /// Those of errors that may have been mended since.
@@ -179,7 +220,9 @@ void removeErrorPictures(const std::string& folder)
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    const bool is_error = name.find("-wrong-") != std::string::npos || name.find("-miss-") != std::string::npos;
+    const bool is_error = std::any_of(kKindNames.begin(), kKindNames.end(), [&](const std::string& kind) {
+      return name.find("-" + kind + "-") != std::string::npos;
+    });
     if (is_error && entry.path().extension() == ".png") {
       old.push_back(entry.path());
     }
@@ -190,32 +233,6 @@ void removeErrorPictures(const std::string& folder)
 }
 
 }  // namespace
-
-std::vector<Error> worstErrors(const Evaluation& evaluation, std::size_t limit)
-{
-  // Per scene, variation and kind, the worst first.
-  std::map<std::tuple<std::string, std::size_t, bool>, std::vector<Error>> errors;
-  for (std::size_t frame = 0; frame < evaluation.frames.size(); ++frame) {
-    for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
-      for (const auto& found : {wrongPlaces(evaluation, frame, variation), misses(evaluation, frame, variation)}) {
-        for (const Error& error : found) {
-          errors[{evaluation.frames[frame].scene, variation, error.is_miss}].push_back(error);
-        }
-      }
-    }
-  }
-  const auto weight = [&](const Error& error) {
-    return error.is_miss ? visiblePoints(evaluation, error) : error.count;
-  };
-  std::vector<Error> worst;
-  for (auto& [key, candidates] : errors) {
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [&](const Error& a, const Error& b) { return weight(a) > weight(b); });
-    candidates.resize(std::min(limit, candidates.size()));
-    worst.insert(worst.end(), candidates.begin(), candidates.end());
-  }
-  return worst;
-}
 
 void drawErrors(const std::string& folder, const Evaluation& evaluation, const std::vector<EvaluationFrame>& frames,
                 const std::vector<Error>& errors, std::size_t threads, const std::function<void()>& done)

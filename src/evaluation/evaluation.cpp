@@ -34,6 +34,18 @@ Localization localize(const LabelledCloud& labelled, std::size_t views, const Co
   return result;
 }
 
+JudgedHandle judged(const GraspHandle& handle, const LabelledCloud& labelled, const Judge& judge)
+{
+  JudgedHandle result{handle, judge(handle), {}, handle.hand_poses.size()};
+  result.handle.hand_poses = {};
+  for (const Affordance& affordance : labelled.affordances) {
+    if (affordance.label == result.verdict.affordance) {
+      result.errors = handleErrors(handle, affordance);
+    }
+  }
+  return result;
+}
+
 Run evaluateRun(const LabelledCloud& labelled, const Judge& judge, const Variation& variation, std::size_t run)
 {
   Config config = variation.config;
@@ -45,6 +57,9 @@ Run evaluateRun(const LabelledCloud& labelled, const Judge& judge, const Variati
   result.sampled = localization.sampled;
   for (const Shell& shell : localization.shells) {
     result.shells.push_back({shell, judge(shell)});
+  }
+  for (const GraspHandle& handle : localization.handles) {
+    result.handles.push_back(judged(handle, labelled, judge));
   }
   return result;
 }
@@ -105,6 +120,13 @@ bool finds(const Run& run, std::uint32_t label)
 {
   return std::any_of(run.shells.begin(), run.shells.end(),
                      [label](const JudgedShell& judged) { return judged.verdict.affordance == label; });
+}
+
+std::size_t handlesOn(const Run& run, std::uint32_t label)
+{
+  return static_cast<std::size_t>(
+      std::count_if(run.handles.begin(), run.handles.end(),
+                    [label](const JudgedHandle& judged) { return judged.verdict.affordance == label; }));
 }
 
 std::size_t pointsIn(const FrameResult& frame, std::size_t views)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "evaluation/handle_errors.h"
 #include "evaluation/judge.h"
 #include "evaluation/labelled_cloud.h"
 #include "grasp_affordances/config.h"
@@ -20,6 +21,14 @@ struct JudgedShell
   Verdict verdict;
 };
 
+struct JudgedHandle
+{
+  GraspHandle handle;  ///< without its hand poses
+  Verdict verdict;
+  HandleErrors errors;  ///< of a right one
+  std::size_t hand_poses = 0;
+};
+
 /// How a frame is localized in.
 struct Variation
 {
@@ -32,10 +41,14 @@ struct Run
 {
   std::vector<JudgedShell> shells;
   std::uint32_t sampled = 0;
+  std::vector<JudgedHandle> handles = {};
 };
 
 /// Whether a right shell finds the affordance of this label.
 bool finds(const Run& run, std::uint32_t label);
+
+/// How many right handles find it.
+std::size_t handlesOn(const Run& run, std::uint32_t label);
 
 /// What a further view of a frame shows.
 struct ViewCounts
@@ -63,7 +76,7 @@ std::size_t visiblePoints(const FrameResult& frame, std::size_t affordance, std:
 /// In that further view which shows most of it.
 std::size_t visibleElsewhere(const FrameResult& frame, std::size_t affordance);
 
-/// Localizes in each frame with each variation and judges the shells. Run r samples with the seed r, from
+/// Localizes in each frame with each variation and judges shells and handles. Run r samples with the seed r, from
 /// 1 on; the hand is the one that the frame's labels hold for. Frames are shared out among the threads (0: one per
 /// core), with no influence on the result.
 ///

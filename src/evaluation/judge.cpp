@@ -1,11 +1,10 @@
 #include "evaluation/judge.h"
 
-#include "simulation/ground_truth.h"
+#include "evaluation/polyline.h"
+#include "simulation/grasp_definition.h"
 
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <map>
 #include <string>
 
 namespace grasp_affordances
@@ -15,9 +14,27 @@ namespace
 
 constexpr double kMargin = 0.002;  // m beyond the inner radius, for noise of the surface
 
-using LabelCounts = std::map<std::uint32_t, std::size_t>;
+}  // namespace
 
-Verdict verdict(const LabelCounts& counts)
+const char* verdictName(Verdict::Kind kind)
+{
+  constexpr std::array<const char*, 3> kNames{"right", "wrong", "not_counted"};
+  return kNames[kind];
+}
+
+Judge::Judge(const Cloud& cloud, const std::vector<std::uint32_t>& labels)
+{
+  addView(cloud, labels, Eigen::Isometry3d::Identity());
+}
+
+void Judge::addView(const Cloud& cloud, const std::vector<std::uint32_t>& labels,
+                    const Eigen::Isometry3d& T_shell_cloud)
+{
+  std::string warning;
+  views_.push_back({&cloud, &labels, T_shell_cloud, RangeImage::create(cloud, warning)});
+}
+
+Verdict Judge::verdict(const LabelCounts& counts)
 {
   std::size_t graspable = 0, other = 0, doubtful = 0, most = 0;
   std::uint32_t affordance = 0;
@@ -40,39 +57,16 @@ Verdict verdict(const LabelCounts& counts)
   return {doubtful > other ? Verdict::not_counted : Verdict::wrong, 0};
 }
 
-}  // namespace
-
-const char* verdictName(Verdict::Kind kind)
+template <class IsWithin>
+Judge::LabelCounts Judge::count(const Eigen::Vector3d& sphere_center, double sphere_radius,
+                                const IsWithin& is_within) const
 {
-  constexpr std::array<const char*, 3> kNames{"right", "wrong", "not_counted"};
-  return kNames[kind];
-}
-
-Judge::Judge(const Cloud& cloud, const std::vector<std::uint32_t>& labels)
-{
-  addView(cloud, labels, Eigen::Isometry3d::Identity());
-}
-
-void Judge::addView(const Cloud& cloud, const std::vector<std::uint32_t>& labels,
-                    const Eigen::Isometry3d& T_shell_cloud)
-{
-  std::string warning;
-  views_.push_back({&cloud, &labels, T_shell_cloud.inverse(), RangeImage::create(cloud, warning)});
-}
-
-Verdict Judge::operator()(const Shell& shell) const
-{
-  const double radius = shell.inner_radius + kMargin;
   LabelCounts counts;
   for (const View& view : views_) {
     const Cloud& cloud = *view.cloud;
-    const Eigen::Vector3d centroid = view.T_cloud_shell * shell.centroid;
-    const Eigen::Vector3d axis = view.T_cloud_shell.linear() * shell.axis;
     const auto countRange = [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const Eigen::Vector3d offset = cloud.point(i).cast<double>() - centroid;
-        const double along = offset.dot(axis);
-        if (std::abs(along) <= shell.length / 2 && (offset - along * axis).norm() <= radius) {  // false for NaN
+        if (is_within(view.T_shell_cloud * cloud.point(i).cast<double>())) {
           ++counts[(*view.labels)[i]];
         }
       }
@@ -81,13 +75,44 @@ Verdict Judge::operator()(const Shell& shell) const
       countRange(0, cloud.size());
       continue;
     }
-    const PixelWindow window = view.image->window(centroid, std::hypot(shell.length / 2, radius));
+    const PixelWindow window = view.image->window(view.T_shell_cloud.inverse() * sphere_center, sphere_radius);
     for (int v = window.v_begin; v < window.v_end; ++v) {
       const std::size_t row = static_cast<std::size_t>(v) * cloud.width;
       countRange(row + static_cast<std::size_t>(window.u_begin), row + static_cast<std::size_t>(window.u_end));
     }
   }
-  return verdict(counts);
+  return counts;
+}
+
+Verdict Judge::operator()(const Shell& shell) const
+{
+  const double radius = shell.inner_radius + kMargin;
+  const auto is_within = [&](const Eigen::Vector3d& point) {
+    const Eigen::Vector3d offset = point - shell.centroid;
+    const double along = offset.dot(shell.axis);
+    return std::abs(along) <= shell.length / 2 && (offset - along * shell.axis).norm() <= radius;  // false for NaN
+  };
+  return verdict(count(shell.centroid, std::hypot(shell.length / 2, radius), is_within));
+}
+
+Verdict Judge::operator()(const GraspHandle& handle) const
+{
+  if (handle.polyline.size() < 2) {
+    return {};
+  }
+  const double radius = handle.inner_radius + kMargin;
+  const auto is_within = [&](const Eigen::Vector3d& point) {
+    if (!point.allFinite()) {
+      return false;
+    }
+    const PolylinePlace place = nearestPlace(handle.polyline, point);
+    return !place.is_beyond_end && place.offset.norm() <= radius;
+  };
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : handle.polyline) {
+    box.extend(point);
+  }
+  return verdict(count(box.center(), box.diagonal().norm() / 2 + radius, is_within));
 }
 
 Verdict judge(const Shell& shell, const Cloud& cloud, const std::vector<std::uint32_t>& labels)

@@ -15,6 +15,16 @@ namespace
 
 constexpr std::uint64_t kNoiseOfNextView = 1000000;  // is that of a seed so much larger
 
+void transform(const Eigen::Isometry3d& T, Affordance& affordance)
+{
+  for (Eigen::Vector3d& point : affordance.axis) {
+    point = T * point;
+  }
+  if (affordance.ball_center) {
+    *affordance.ball_center = T * *affordance.ball_center;
+  }
+}
+
 LabelledCloud render(const std::string& scene, std::uint64_t seed, const GraspDefinition& definition,
                      const std::vector<double>& turns)
 {
@@ -35,6 +45,9 @@ LabelledCloud render(const std::string& scene, std::uint64_t seed, const GraspDe
       labelled.cloud = std::move(frame.cloud);
       labelled.labels = std::move(truth.labels);
       labelled.affordances = std::move(truth.affordances);
+      for (Affordance& affordance : labelled.affordances) {
+        transform(cameras.front().inverse(), affordance);
+      }
     } else {
       labelled.further_views.push_back(
           {std::move(frame.cloud), cameras.front().inverse() * cameras[i], std::move(truth.labels)});

@@ -27,7 +27,7 @@ struct LabelledCloud
 {
   Cloud cloud;
   std::vector<std::uint32_t> labels;    ///< per point: 0 not graspable, 1.. affordance, 255 doubtful
-  std::vector<Affordance> affordances;  ///< what is not known of one is NaN or empty
+  std::vector<Affordance> affordances;  ///< in the cloud's frame; what is not known of one is NaN or empty
   double capture_radius = 0.0;          ///< m, of the hand that the labels hold for
   std::vector<FurtherView> further_views;
 };

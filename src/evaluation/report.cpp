@@ -1,15 +1,13 @@
 #include "evaluation/report.h"
 
-#include "grasp_affordances/parameters.h"
+#include "evaluation/handle_report.h"
+#include "evaluation/report_format.h"
+#include "evaluation/sample_report.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <initializer_list>
 #include <sstream>
-#include <stdexcept>
 
 namespace grasp_affordances
 {
@@ -18,68 +16,11 @@ namespace
 
 using Json = nlohmann::json;
 
-const std::string& estimatorName(const Config& config)
-{
-  return enumWord(config.estimation.estimator);
-}
-
-void writeFile(const std::string& path, const std::string& content)
-{
-  std::ofstream file(path, std::ios::binary);
-  if (!(file << content) || !file.flush()) {
-    throw std::runtime_error(path + ": cannot be written");
-  }
-}
-
-/// Comma-separated values; what is not finite is empty.
-class Table
-{
-public:
-  explicit Table(const std::string& header) { text_ << header << "\n"; }
-
-  template <class... Values>
-  void add(const Values&... values)
-  {
-    ((text_ << separator_, cell(values), separator_ = ","), ...);
-  }
-
-  void endRow()
-  {
-    text_ << "\n";
-    separator_ = "";
-  }
-
-  template <class... Values>
-  void addRow(const Values&... values)
-  {
-    add(values...);
-    endRow();
-  }
-
-  void save(const std::string& path) const { writeFile(path, text_.str()); }
-
-private:
-  template <class Value>
-  void cell(const Value& value)
-  {
-    text_ << value;
-  }
-  void cell(double value)
-  {
-    if (std::isfinite(value)) {
-      text_ << value;
-    }
-  }
-
-  std::ostringstream text_;
-  const char* separator_ = "";
-};
-
 void writeShells(const std::string& path, const Evaluation& evaluation)
 {
-  Table table(
+  CsvTable table(
       "scene,seed,run,preset,estimator,views,shell,verdict,affordance,x,y,z,axis_x,axis_y,axis_z,inner_radius,length,"
-      "curvature,observed_free,points_inside,points_in_gap,point_index");
+      "curvature,observed_free,points_inside,points_in_gap,point_index,samples,importance");
   for (const FrameResult& frame : evaluation.frames) {
     for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
       const auto& [config, views] = evaluation.variations[variation];
@@ -91,7 +32,8 @@ void writeShells(const std::string& path, const Evaluation& evaluation)
           table.addRow(frame.scene, frame.seed, run + 1, config.preset, estimatorName(config), views, i,
                        verdictName(verdict.kind), verdict.affordance, s.centroid.x(), s.centroid.y(), s.centroid.z(),
                        s.axis.x(), s.axis.y(), s.axis.z(), s.inner_radius, s.length, s.curvature, s.observed_free,
-                       s.points_inside, s.points_in_gap, s.point_index);
+                       s.points_inside, s.points_in_gap, s.point_index, config.sampling.samples,
+                       onOrOff(config.sampling.importance));
         }
       }
     }
@@ -101,24 +43,28 @@ void writeShells(const std::string& path, const Evaluation& evaluation)
 
 void writeAffordances(const std::string& path, const Evaluation& evaluation)
 {
-  Table table(
+  CsvTable table(
       "scene,seed,preset,estimator,views,label,object,visible_points,visible_elsewhere,occluded_share,distance,radius,"
-      "length,runs,found,"
-      "chance");
+      "length,runs,found,chance,handles_none,handles_one,handles_several,samples,importance");
   for (const FrameResult& frame : evaluation.frames) {
     for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
       const auto& [config, views] = evaluation.variations[variation];
       for (std::size_t i = 0; i < frame.affordances.size(); ++i) {
         const Affordance& a = frame.affordances[i];
-        std::size_t found = 0;
+        std::size_t found = 0, no_handle = 0, one_handle = 0;
         double chances = 0.0;
         for (const Run& run : frame.runs[variation]) {
           found += finds(run, a.label) ? 1 : 0;
+          const std::size_t handles = handlesOn(run, a.label);
+          no_handle += handles == 0 ? 1 : 0;
+          one_handle += handles == 1 ? 1 : 0;
           chances += samplingChance(visiblePoints(frame, i, views), pointsIn(frame, views), run.sampled);
         }
         table.addRow(frame.scene, frame.seed, config.preset, estimatorName(config), views, a.label, a.object,
                      a.visible_points, visibleElsewhere(frame, i), a.occluded_share, a.distance, a.radius, a.length,
-                     evaluation.runs, found, chances / static_cast<double>(evaluation.runs));
+                     evaluation.runs, found, chances / static_cast<double>(evaluation.runs), no_handle, one_handle,
+                     evaluation.runs - no_handle - one_handle, config.sampling.samples,
+                     onOrOff(config.sampling.importance));
       }
     }
   }
@@ -135,7 +81,7 @@ void writeSummary(const std::string& path, const Evaluation& evaluation, const s
     const std::string key = visibility.key;
     header += ",affordances_" + key + ",found_" + key + ",recall_" + key + ",chance_" + key;
   }
-  Table table(header);
+  CsvTable table(header + ",samples,importance" + handleColumns());
   for (const SummaryRow& row : rows) {
     const auto& [config, views] = evaluation.variations[row.variation];
     const Score& s = row.score;
@@ -147,6 +93,8 @@ void writeSummary(const std::string& path, const Evaluation& evaluation, const s
     for (const Recall& recall : s.recall) {
       table.add(recall.found.whole, recall.found.part, recall.found.value(), recall.chance);
     }
+    table.add(config.sampling.samples, onOrOff(config.sampling.importance));
+    addHandleColumns(row.handles, table);
     table.endRow();
   }
   table.save(path);
@@ -180,6 +128,8 @@ Json json(const SummaryRow& row, const Variation& variation)
           {"preset", config.preset},
           {"estimator", estimatorName(config)},
           {"views", views},
+          {"samples", config.sampling.samples},
+          {"importance", config.sampling.importance},
           {"frames", s.frames},
           {"runs", s.runs},
           {"right", s.precision.part},
@@ -190,26 +140,8 @@ Json json(const SummaryRow& row, const Variation& variation)
           {"interval", json(s.interval)},
           {"unit_precision", json(s.unit_precision)},
           {"taubin_difference", row.taubin_difference ? json(*row.taubin_difference) : Json()},
-          {"recall", recalls}};
-}
-
-std::string text(const char* format, double value)
-{
-  char buffer[32];
-  std::snprintf(buffer, sizeof(buffer), format, value);
-  return buffer;
-}
-
-/// In percent, or a dash.
-std::string percent(double share)
-{
-  return std::isfinite(share) ? text("%.1f", 100.0 * share) : "–";
-}
-
-std::string percent(double share, const Interval& interval)
-{
-  const bool known = std::isfinite(share) && std::isfinite(interval.low);
-  return percent(share) + (known ? " (" + percent(interval.low) + " to " + percent(interval.high) + ")" : "");
+          {"recall", recalls},
+          {"handles", handleJson(row.handles)}};
 }
 
 /// Those of which a table has a column.
@@ -228,8 +160,8 @@ std::string markdownRow(const SummaryRow& row, const std::vector<std::size_t>& v
 {
   const Score& s = row.score;
   std::ostringstream line;
-  line << "| " << (row.is_group ? "**all of " + row.scene + "**" : row.scene) << " | " << s.frames << " × " << s.runs
-       << " | " << s.precision.part << " | " << s.wrong() << " | " << percent(s.precision.value(), s.interval) << " | "
+  line << "| " << sceneCell(row) << " | " << s.frames << " × " << s.runs << " | " << s.precision.part << " | "
+       << s.wrong() << " | " << percent(s.precision.value(), s.interval) << " | "
        << percent(s.unit_precision.value, s.unit_precision.interval) << " | " << text("%.2f", s.wrongPerRun());
   for (const std::size_t visibility : visibilities) {
     const Recall& recall = s.recall[visibility];
@@ -254,13 +186,11 @@ std::string markdownTables(const Evaluation& evaluation, const std::vector<Summa
   std::ostringstream tables;
   const std::vector<std::size_t> visibilities = visibilityColumns(evaluation);
   for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
-    const auto& [config, views] = evaluation.variations[variation];
     bool compares = false;
     for (const SummaryRow& row : rows) {
       compares = compares || (row.variation == variation && row.taubin_difference);
     }
-    tables << (variation > 0 ? "\n" : "") << "Preset `" << config.preset << "`, " << estimatorName(config) << ", "
-           << config.sampling.samples << " samples" << (views > 1 ? ", " + std::to_string(views) + " views" : "")
+    tables << (variation > 0 ? "\n" : "") << variationTitle(evaluation, variation)
            << ". Precision and recall in percent, with 95 % intervals.\n\n"
            << "| scene | frames × runs | right | wrong | precision | mean precision | wrong per run |";
     for (const std::size_t visibility : visibilities) {
@@ -278,12 +208,17 @@ std::string markdownTables(const Evaluation& evaluation, const std::vector<Summa
       }
     }
   }
+  tables << "\n" << markdownHandleTables(evaluation, rows);
+  if (variesSampling(evaluation)) {
+    tables << "\n" << markdownSampleTable(evaluation, rows);
+  }
   return tables.str();
 }
 
 void writeReport(const std::string& folder, const Evaluation& evaluation, const std::vector<SummaryRow>& rows)
 {
   writeShells(folder + "/shells.csv", evaluation);
+  writeHandles(folder + "/handles.csv", evaluation);
   writeAffordances(folder + "/affordances.csv", evaluation);
   writeSummary(folder + "/summary.csv", evaluation, rows);
   Json summary = Json::array();
@@ -291,12 +226,15 @@ void writeReport(const std::string& folder, const Evaluation& evaluation, const 
     summary.push_back(json(row, evaluation.variations[row.variation]));
   }
   writeFile(folder + "/summary.json", summary.dump(1) + "\n");
+  if (variesSampling(evaluation)) {
+    writeSamples(folder + "/samples.csv", evaluation, rows);
+  }
   writeFile(folder + "/table.md", markdownTables(evaluation, rows));
 }
 
 void writeRuntimes(const std::string& folder, const std::vector<Runtime>& runtimes)
 {
-  Table table("preset,estimator,samples,k,milliseconds,milliseconds_low,milliseconds_high,calls");
+  CsvTable table("preset,estimator,samples,k,milliseconds,milliseconds_low,milliseconds_high,calls");
   for (const Runtime& runtime : runtimes) {
     const Config& config = runtime.config;
     const Mean& mean = runtime.milliseconds;

@@ -93,6 +93,18 @@ Interval pooledInterval(const std::vector<Ratio>& units)
   return {quantile(kTail), quantile(1.0 - kTail)};
 }
 
+double quantile(std::vector<double> values, double share)
+{
+  if (values.empty()) {
+    return kUndefined;
+  }
+  std::sort(values.begin(), values.end());
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
 Mean pairedDifference(const std::vector<Ratio>& a, const std::vector<Ratio>& b)
 {
   std::vector<double> differences;

@@ -55,6 +55,9 @@ Ratio pooled(const std::vector<Ratio>& units);
 /// depend on one another, as shells of one frame do. None from fewer than two units.
 Interval pooledInterval(const std::vector<Ratio>& units);
 
+/// The value that a share, in [0, 1], of the values is below, interpolated between neighbors; NaN for no values.
+double quantile(std::vector<double> values, double share);
+
 /// Mean of a - b over the units in which both shares are defined.
 Mean pairedDifference(const std::vector<Ratio>& a, const std::vector<Ratio>& b);
 

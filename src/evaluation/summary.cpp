@@ -1,5 +1,7 @@
 #include "evaluation/summary.h"
 
+#include "evaluation/units.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -9,30 +11,6 @@ namespace grasp_affordances
 {
 namespace
 {
-
-struct FrameRun
-{
-  const FrameResult& frame;
-  const Run& run;
-};
-using Unit = std::vector<FrameRun>;
-
-std::vector<Unit> makeUnits(const std::vector<const FrameResult*>& frames, std::size_t variation)
-{
-  std::vector<Unit> units;
-  for (const FrameResult* frame : frames) {
-    if (frames.size() > 1) {
-      units.emplace_back();
-    }
-    for (const Run& run : frame->runs[variation]) {
-      if (frames.size() == 1) {
-        units.emplace_back();
-      }
-      units.back().push_back({*frame, run});
-    }
-  }
-  return units;
-}
 
 std::size_t count(const Unit& unit, Verdict::Kind kind)
 {
@@ -89,6 +67,13 @@ bool hasSeveralScenes(const std::vector<const FrameResult*>& frames)
                      [&](const FrameResult* frame) { return frame->scene != frames.front()->scene; });
 }
 
+bool differOnlyInEstimator(const Variation& a, const Variation& b)
+{
+  const SamplingConfig &sampling_a = a.config.sampling, &sampling_b = b.config.sampling;
+  return a.config.preset == b.config.preset && a.views == b.views && sampling_a.samples == sampling_b.samples &&
+         sampling_a.importance == sampling_b.importance;
+}
+
 /// Sets the differences to Taubin of rows that hold all variations of some frames.
 void compareWithTaubin(const std::vector<Variation>& variations, SummaryRow* rows)
 {
@@ -97,8 +82,7 @@ void compareWithTaubin(const std::vector<Variation>& variations, SummaryRow* row
       continue;
     }
     for (std::size_t other = 0; other < variations.size(); ++other) {
-      if (other != taubin && variations[other].config.preset == variations[taubin].config.preset &&
-          variations[other].views == variations[taubin].views) {
+      if (other != taubin && differOnlyInEstimator(variations[other], variations[taubin])) {
         rows[other].taubin_difference = pairedDifference(rows[taubin].score.units, rows[other].score.units);
       }
     }
@@ -119,6 +103,19 @@ bool hasSeveralViews(const Evaluation& evaluation)
 {
   return std::any_of(evaluation.variations.begin(), evaluation.variations.end(),
                      [](const Variation& variation) { return variation.views > 1; });
+}
+
+bool variesSampling(const Evaluation& evaluation)
+{
+  const auto differ = [](const Variation& a, const Variation& b) {
+    const SamplingConfig &sampling_a = a.config.sampling, &sampling_b = b.config.sampling;
+    return a.config.preset == b.config.preset &&
+           (sampling_a.samples != sampling_b.samples || sampling_a.importance != sampling_b.importance);
+  };
+  return std::any_of(evaluation.variations.begin(), evaluation.variations.end(), [&](const Variation& a) {
+    return differ(a, *std::find_if(evaluation.variations.begin(), evaluation.variations.end(),
+                                   [&](const Variation& b) { return b.config.preset == a.config.preset; }));
+  });
 }
 
 Score score(const std::vector<const FrameResult*>& frames, std::size_t variation, std::size_t views)
@@ -147,8 +144,8 @@ std::vector<SummaryRow> summarize(const Evaluation& evaluation)
   const auto append = [&](const std::string& name, bool is_group, const std::vector<const FrameResult*>& frames) {
     const std::size_t first = rows.size();
     for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
-      rows.push_back(
-          {name, is_group, variation, score(frames, variation, evaluation.variations[variation].views), std::nullopt});
+      rows.push_back({name, is_group, variation, score(frames, variation, evaluation.variations[variation].views),
+                      scoreHandles(frames, variation), std::nullopt});
     }
     compareWithTaubin(evaluation.variations, rows.data() + first);
   };

@@ -1,48 +1,18 @@
 #pragma once
 
 #include "evaluation/evaluation.h"
+#include "evaluation/handle_score.h"
 #include "evaluation/statistics.h"
+#include "evaluation/visibility.h"
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace grasp_affordances
 {
-
-/// Affordances by how well the first view, and the further ones, show them.
-struct VisibilityClass
-{
-  const char* key;    ///< in tables for machines
-  const char* title;  ///< in tables for readers
-  std::size_t min_points;
-  std::size_t max_points;
-  double occluded_below;          ///< share; infinite: whatever is in front of it, also where that is unknown
-  std::size_t min_elsewhere = 0;  ///< points in the further view that shows most of it
-
-  bool holds(const Affordance& affordance, std::size_t elsewhere) const
-  {
-    return affordance.visible_points >= min_points && affordance.visible_points <= max_points &&
-           (occluded_below == kAny || affordance.occluded_share < occluded_below) && elsewhere >= min_elsewhere;
-  }
-
-  static constexpr double kAny = std::numeric_limits<double>::infinity();
-  static constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
-};
-
-constexpr std::array<VisibilityClass, 8> kVisibilityClasses{{
-    {"all", "all", 1, VisibilityClass::kAnyNumber, VisibilityClass::kAny},
-    {"800", "≥ 800 points", 800, VisibilityClass::kAnyNumber, VisibilityClass::kAny},
-    {"200", "≥ 200", 200, VisibilityClass::kAnyNumber, VisibilityClass::kAny},
-    {"60", "≥ 60", 60, VisibilityClass::kAnyNumber, VisibilityClass::kAny},
-    {"200_clear", "≥ 200, less than half occluded", 200, VisibilityClass::kAnyNumber, 0.5},
-    {"hidden", "< 60, elsewhere ≥ 200", 0, 59, VisibilityClass::kAny, 200},
-    {"hardly_seen", "< 200, elsewhere ≥ 200", 0, 199, VisibilityClass::kAny, 200},
-    {"below_800", "< 800", 1, 799, VisibilityClass::kAny},
-}};
 
 /// Chance that a sample out of `samples`, drawn uniformly from `points`, lands on one of the `visible` ones.
 double samplingChance(std::size_t visible, std::size_t points, std::size_t samples);
@@ -86,6 +56,9 @@ struct Evaluation
 /// Whether a variation uses more than one view.
 bool hasSeveralViews(const Evaluation& evaluation);
 
+/// Whether variations differ in the number of samples or in importance sampling, other than by their preset.
+bool variesSampling(const Evaluation& evaluation);
+
 /// One scene, or all of a group, under one variation.
 struct SummaryRow
 {
@@ -93,6 +66,7 @@ struct SummaryRow
   bool is_group = false;
   std::size_t variation = 0;
   Score score;
+  HandleScore handles;
   std::optional<Mean>
       taubin_difference;  ///< precision of Taubin under the same preset minus this one's, paired by unit
 };

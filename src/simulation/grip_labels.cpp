@@ -22,6 +22,12 @@ enum class Verdict
   yes
 };
 
+struct CellEnd
+{
+  Eigen::Vector3d position;  ///< in the scene's frame
+  double radius;             ///< half the section's larger size
+};
+
 /// A piece of a part's axis between two places.
 struct Cell
 {
@@ -29,8 +35,8 @@ struct Cell
   std::size_t index;  ///< among the part's cells, from the start of its axis
   double from, to;
   const GripAxis* axis;
-  Eigen::Vector3d first, last;  ///< its ends in the scene's frame, in the order of the run
-  double length;                ///< that it adds to a run
+  CellEnd first, last;  ///< in the order of the run
+  double length;        ///< that it adds to a run
   double margin;
   Verdict verdict;
 };
@@ -90,18 +96,35 @@ std::vector<Run> runs(const std::vector<Cell>& cells, bool closed, Verdict least
   return result;
 }
 
-Grip gripOf(const Run& run)
+bool isBall(const GripAxis& axis)
+{
+  constexpr double kMostTaper = 0.5, kMostSlender = 1.5;
+  const double widest = axis.largestHalfSizes(0.0, axis.length()).maxCoeff();
+  const double at_ends = std::max(axis.halfSizes(0.0).maxCoeff(), axis.halfSizes(axis.length()).maxCoeff());
+  return at_ends < kMostTaper * widest && axis.length() <= kMostSlender * 2.0 * widest;
+}
+
+Grip gripOf(const Scene& scene, const Run& run)
 {
   Grip grip;
+  const auto append = [&grip](const CellEnd& end) {
+    grip.axis.push_back(end.position);
+    grip.radii.push_back(end.radius);
+  };
   for (const Cell* cell : run) {
     if (grip.parts.empty() || grip.parts.back() != cell->part)
       grip.parts.push_back(cell->part);
     grip.radius = std::max(grip.radius, cell->axis->largestHalfSizes(cell->from, cell->to).maxCoeff());
     grip.length += cell->length;
     if (grip.axis.empty())
-      grip.axis.push_back(cell->first);
+      append(cell->first);
     if (cell->length > 0.0)
-      grip.axis.push_back(cell->last);
+      append(cell->last);
+  }
+  const GripAxis& axis = *run.front()->axis;
+  if (grip.parts.size() == 1 && isBall(axis)) {
+    const Eigen::Isometry3d& T_scene_shape = scene.parts()[grip.parts.front()].T_scene_shape;
+    grip.ball_center = T_scene_shape * axis.sectionFrame(0.5 * axis.length()).translation();
   }
   return grip;
 }
@@ -136,8 +159,8 @@ public:
         cell.from = static_cast<double>(cell.index) * length;
         cell.to = static_cast<double>(cell.index + 1) * length;
         cell.axis = &along.axis;
-        cell.first = onAxis(along, along.reversed ? cell.to : cell.from);
-        cell.last = onAxis(along, along.reversed ? cell.from : cell.to);
+        cell.first = endAt(along, along.reversed ? cell.to : cell.from);
+        cell.last = endAt(along, along.reversed ? cell.from : cell.to);
         const Eigen::Vector3d middle = onAxis(along, 0.5 * (cell.from + cell.to));
         cell.length = insideEarlier(axes, k, middle) ? 0.0 : length;
         cell.margin = margin_(middle);
@@ -171,6 +194,11 @@ private:
   Eigen::Vector3d onAxis(const PartAxis& along, double place) const
   {
     return scene_.parts()[along.part].T_scene_shape * along.axis.sectionFrame(place).translation();
+  }
+
+  CellEnd endAt(const PartAxis& along, double place) const
+  {
+    return {onAxis(along, place), along.axis.halfSizes(place).maxCoeff()};
   }
 
   bool insideEarlier(const std::vector<PartAxis>& axes, std::size_t k, const Eigen::Vector3d& point) const
@@ -225,7 +253,7 @@ GripLabels::GripLabels(const Scene& scene, const GraspDefinition& definition, co
     for (const Run& run : best->doubtful)
       mark(run, kDoubtful);
     for (const Run& run : best->grips) {
-      Grip grip = gripOf(run);
+      Grip grip = gripOf(scene, run);
       grip.label = static_cast<std::uint32_t>(grips_.size() + 1);
       if (grip.label == kDoubtful)
         throw std::length_error("a scene with more than 254 affordances");

@@ -23,6 +23,10 @@ struct Grip
   double radius = 0.0;                ///< m, of the surface where it is widest
   double length = 0.0;                ///< m, along its axis
   std::vector<Eigen::Vector3d> axis;  ///< m, points along its axis, in the scene's frame
+  std::vector<double> radii;          ///< m, of the surface at these points: half the section's larger size
+  /// Of a ball, which can be gripped about any axis through it, in the scene's frame. A ball is a solid that tapers
+  /// to less than half its width at both ends of an axis no longer than one and a half times that width.
+  std::optional<Eigen::Vector3d> ball_center;
 };
 
 /// How far, in m, a radius, clearance or length has to be from its threshold to be certain, at a point of the scene.

@@ -135,6 +135,8 @@ GroundTruth groundTruth(const View& view, const Frame& frame, const XtionModel& 
     affordance.radius = grip.radius;
     affordance.length = grip.length;
     affordance.axis = grip.axis;
+    affordance.radii = grip.radii;
+    affordance.ball_center = grip.ball_center;
     const Eigen::Vector3d middle = 0.5 * (grip.axis[(grip.axis.size() - 1) / 2] + grip.axis[grip.axis.size() / 2]);
     affordance.distance = (T_camera_scene * middle).norm();
     affordance.visible_points =

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +18,17 @@ namespace grasp_affordances
 /// A stretch of a part, or of parts in a chain, that a hand can close around.
 struct Affordance
 {
-  std::uint32_t label = 0;            ///< 1..254
-  std::string object;                 ///< name of the object that it belongs to
-  double radius = 0.0;                ///< m, of the surface where it is widest
-  double length = 0.0;                ///< m, along its axis
-  double distance = 0.0;              ///< m, from the camera to the middle of its axis
-  std::vector<Eigen::Vector3d> axis;  ///< m, points along its axis, in the scene's frame
-  std::size_t visible_points = 0;     ///< measured in the frame
-  double occluded_share = 0.0;        ///< of the pixels that it would fill alone, those where something is in front;
-                                      ///< 0 where it fills none
+  std::uint32_t label = 0;                     ///< 1..254
+  std::string object;                          ///< name of the object that it belongs to
+  double radius = 0.0;                         ///< m, of the surface where it is widest
+  double length = 0.0;                         ///< m, along its axis
+  double distance = 0.0;                       ///< m, from the camera to the middle of its axis
+  std::vector<Eigen::Vector3d> axis;           ///< m, points along its axis, in the scene's frame
+  std::vector<double> radii;                   ///< m, of the surface at these points: half the section's larger size
+  std::optional<Eigen::Vector3d> ball_center;  ///< m, of what can be gripped about any axis: see Grip
+  std::size_t visible_points = 0;              ///< measured in the frame
+  double occluded_share = 0.0;  ///< of the pixels that it would fill alone, those where something is in front;
+                                ///< 0 where it fills none
 };
 
 /// Labels that follow from the geometry alone.

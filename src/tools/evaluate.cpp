@@ -72,7 +72,9 @@ void run(const EvaluateOptions& options)
     appendRecordings(options, frames);
   }
   std::filesystem::create_directories(options.out);
-  std::filesystem::remove(options.out + "/runtime.csv");  // of an earlier call, which plots would show as measured now
+  for (const char* table : {"/runtime.csv", "/samples.csv"}) {
+    std::filesystem::remove(options.out + table);  // of an earlier call, which plots would show as measured now
+  }
   Evaluation evaluation{options.variations, options.runs, {}};
   {
     Progress progress("frames", frames.size());

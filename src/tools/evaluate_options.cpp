@@ -25,7 +25,8 @@ struct Arguments
 {
   Strings scenes, seeds{"101:120"}, estimators{"taubin", "pca", "normals"}, presets{"paper", "localizer"};
   std::string labels, config_file, out = "evaluation";
-  std::optional<int> samples;
+  std::vector<int> samples;
+  Strings importance;
   std::optional<double> capture_radius;
   std::vector<double> turns{0.0};
   std::size_t runs = 1, threads = 0, pictures = 10;
@@ -99,6 +100,33 @@ std::vector<std::uint64_t> parseSeeds(const Strings& words)
   return seeds;
 }
 
+bool parseSwitch(const std::string& option, const std::string& word)
+{
+  if (word != "on" && word != "off") {
+    throw std::invalid_argument(option + ": '" + word + "' is neither on nor off");
+  }
+  return word == "on";
+}
+
+/// What is asked for in place of the preset's sampling.
+std::vector<SamplingConfig> samplings(const Arguments& arguments, SamplingConfig sampling)
+{
+  const bool preset_importance = sampling.importance;
+  std::vector<bool> importances;
+  for (const std::string& word : arguments.importance) {
+    importances.push_back(parseSwitch("--importance", word));
+  }
+  std::vector<SamplingConfig> result;
+  for (const int samples : arguments.samples.empty() ? std::vector<int>{sampling.samples} : arguments.samples) {
+    for (const bool importance : importances.empty() ? std::vector<bool>{preset_importance} : importances) {
+      sampling.samples = samples;
+      sampling.importance = importance;
+      result.push_back(sampling);
+    }
+  }
+  return result;
+}
+
 std::vector<Variation> makeVariations(const Arguments& arguments)
 {
   std::vector<Variation> variations;
@@ -111,13 +139,16 @@ std::vector<Variation> makeVariations(const Arguments& arguments)
                                     ", whose preset is " + config.preset);
       }
     }
-    config.sampling.samples = arguments.samples.value_or(config.sampling.samples);
     config.hand.capture_radius = arguments.capture_radius.value_or(config.hand.capture_radius);
     for (const std::string& estimator : arguments.estimators) {
       config.estimation.estimator = enumFromWord<Estimator>("--estimators", estimator);
-      validate(config);
-      for (std::size_t views = 1; views <= arguments.turns.size(); ++views) {
-        variations.push_back({config, views});
+      for (const SamplingConfig& sampling : samplings(arguments, config.sampling)) {
+        Config variation = config;
+        variation.sampling = sampling;
+        validate(variation);
+        for (std::size_t views = 1; views <= arguments.turns.size(); ++views) {
+          variations.push_back({variation, views});
+        }
       }
     }
   }
@@ -128,6 +159,8 @@ EvaluateOptions makeOptions(const Arguments& arguments)
 {
   requireDistinct("--presets", arguments.presets);
   requireDistinct("--estimators", arguments.estimators);
+  requireDistinct("--samples", arguments.samples);
+  requireDistinct("--importance", arguments.importance);
   requireDistinct("--turn", arguments.turns);
   if (arguments.turns != Arguments().turns && !arguments.labels.empty()) {
     throw std::invalid_argument("--turn: the camera of recorded clouds (--labels) cannot be turned");
@@ -190,9 +223,14 @@ void addOptions(CLI::App& app, Arguments& arguments)
       ->delimiter(',');
   app.add_option("--config", arguments.config_file, "YAML file of parameters, read over each preset")
       ->type_name("FILE");
-  app.add_option_function<int>(
-         "--samples", [&arguments](int samples) { arguments.samples = samples; }, "neighborhoods drawn per cloud")
-      ->type_name("N");
+  app.add_option("--samples", arguments.samples,
+                 "neighborhoods drawn per cloud; of several numbers each is evaluated (default: the preset's)")
+      ->type_name("N,..")
+      ->delimiter(',');
+  app.add_option("--importance", arguments.importance,
+                 "importance sampling: on, off or both to compare them (default: the preset's)")
+      ->type_name("on,off")
+      ->delimiter(',');
   app.add_option_function<double>(
          "--capture-radius", [&arguments](double radius) { arguments.capture_radius = radius; },
          "of the hand, m; also decides what is graspable in rendered scenes")
@@ -200,7 +238,9 @@ void addOptions(CLI::App& app, Arguments& arguments)
   app.add_flag("--runtime", arguments.runtime,
                "measure the running time, too: 1000 to 10000 samples, k nearest neighbors, on a rendered cleaning2");
   app.add_option("--pictures", arguments.pictures,
-                 "draw at most N wrong places and N misses per scene, preset and estimator (default 10)")
+                 "draw at most N errors of each kind (wrong shells, wrong handles, misses, ...) per scene, preset and "
+                 "estimator "
+                 "(default 10)")
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
   app.add_option("--threads", arguments.threads, "frames at a time; 0: one per core; no influence on the result")

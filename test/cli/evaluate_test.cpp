@@ -71,6 +71,9 @@ TEST_F(EvaluateTest, UsageThatMakesNoSenseIsRefused)
   expectFailure("--turn 0,200", 2, "--turn");
   expectFailure("--turn 90,0,90", 2, "twice");
   expectFailure("--turn 0,90 --labels labels.json", 2, "--turn");
+  expectFailure("--samples 100,200,100", 2, "twice");
+  expectFailure("--samples 100,0", 2, "sampling/samples");
+  expectFailure("--importance maybe", 2, "'maybe'");
   expectFailure("--frobnicate", 2, "--frobnicate");
   std::ofstream(path("paper.yaml")) << "preset: paper\n";
   expectFailure("--config paper.yaml --presets localizer", 2, "contradicts");
@@ -91,7 +94,8 @@ TEST_F(EvaluateTest, WritesTheSameTablesWithAnyNumberOfThreads)
   ASSERT_EQ(one.status, 0) << one.err;
   EXPECT_NE(one.out.find("| table | 2 × 2 |"), std::string::npos) << one.out;
   EXPECT_EQ(one.out, three.out);
-  for (const std::string name : {"shells.csv", "affordances.csv", "summary.csv", "summary.json", "table.md"}) {
+  for (const std::string name :
+       {"shells.csv", "handles.csv", "affordances.csv", "summary.csv", "summary.json", "table.md"}) {
     EXPECT_GT(content(path("one/" + name)).size(), 100U) << name;
     EXPECT_EQ(content(path("one/" + name)), content(path("three/" + name))) << name;
   }
@@ -108,6 +112,21 @@ TEST_F(EvaluateTest, TurnedCamerasAreViewsOfOneEvaluation)
   const std::string summary = content(path("summary.csv"));
   EXPECT_NE(summary.find("\nmugs,0,localizer,taubin,1,1,1,"), std::string::npos) << summary;
   EXPECT_NE(summary.find("\nmugs,0,localizer,taubin,2,1,1,"), std::string::npos) << summary;
+}
+
+TEST_F(EvaluateTest, SamplingIsVariedInOneCall)
+{
+  const std::string options = "--scenes table --seeds 1 --presets localizer --estimators taubin --pictures 0 --out . ";
+  const Call call = evaluate(options + "--samples 500,1000 --importance on,off");
+  ASSERT_EQ(call.status, 0) << call.err;
+  EXPECT_NE(call.out.find("Preset `localizer`, taubin, 500 samples, importance sampling on. Precision"),
+            std::string::npos)
+      << call.out;
+  EXPECT_NE(call.out.find("| table | localizer | taubin | 1 | 1000 | off |"), std::string::npos) << call.out;
+  const std::string samples = content(path("samples.csv"));
+  EXPECT_EQ(std::count(samples.begin(), samples.end(), '\n'), 1 + 4) << samples;
+  ASSERT_EQ(evaluate(options).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("samples.csv"))) << "of an earlier call";
 }
 
 }  // namespace

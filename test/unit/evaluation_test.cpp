@@ -362,14 +362,16 @@ TEST(ErrorPictures, ShellsAtOnePlaceAreOneErrorAndTheWorstComeFirst)
   auto& shells = evaluation.frames[0].runs[0][1].shells;
   shells = {judged(Verdict::wrong, 0, 0.5), judged(Verdict::wrong, 0, 0.8), judged(Verdict::wrong, 0, 0.81)};
   std::vector<Error> errors = worstErrors(evaluation, 1);
-  errors.erase(std::remove_if(errors.begin(), errors.end(), [](const Error& error) { return error.variation != 0; }),
-               errors.end());
+  errors.erase(
+      std::remove_if(errors.begin(), errors.end(),
+                     [](const Error& error) { return error.variation != 0 || error.kind == Error::no_handle; }),
+      errors.end());
   ASSERT_EQ(errors.size(), 2U);
-  std::sort(errors.begin(), errors.end(), [](const Error& a, const Error& b) { return a.is_miss < b.is_miss; });
-  EXPECT_EQ(errors[0].shell, 1U);
+  EXPECT_EQ(errors[0].kind, Error::wrong_shell);
+  EXPECT_EQ(errors[0].index, 1U);
   EXPECT_EQ(errors[0].run, 1U);
   EXPECT_EQ(errors[0].count, 2U);
-  EXPECT_TRUE(errors[1].is_miss);
+  EXPECT_EQ(errors[1].kind, Error::miss);
   EXPECT_EQ(errors[1].label, 1U) << "900 points, missed in the second run";
   EXPECT_EQ(errors[1].count, 1U);
 }
@@ -492,9 +494,9 @@ TEST_F(EvaluationFiles, ReportHasARowPerShellAndPerAffordance)
   ASSERT_EQ(affordances.size(), 1U + 2U * 3U);
   EXPECT_EQ(affordances[1].substr(0, 55), "mugs,1,localizer,taubin,1,1,object 1,900,0,0.1,0,0,0,2,");
   EXPECT_EQ(lines("summary.csv").size(), 1U + 2U);
-  EXPECT_EQ(lines("table.md").size(), 2U * 5U + 1U);
+  EXPECT_EQ(lines("table.md").size(), 2U * (2U * 5U + 1U) + 1U) << "shells and handles, two variations each";
   for (const std::string& line : lines("summary.csv")) {
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 19 + 4 * 8) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 19 + 4 * 8 + 2 + 13 + 4 * 8) << line;
   }
 }
 

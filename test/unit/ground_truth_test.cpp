@@ -382,6 +382,68 @@ TEST(GripLabels, RefusesMoreGripsThanLabels)
   EXPECT_THROW(label(scene), std::length_error);
 }
 
+std::vector<Grip> gripsOfSolid(const Primitive& solid, const Eigen::Isometry3d& T_scene_shape)
+{
+  Scene scene;
+  scene.add(solid, T_scene_shape);
+  return label(scene).grips();
+}
+
+TEST(GripLabels, RadiusFollowsTheSurfaceAlongTheAxis)
+{
+  const Eigen::Isometry3d pose = lying(0.1, 0.2, 0.3);
+  const auto cone = gripsOfSolid(Frustum{0.02, 0.008, 0.12}, pose);
+  ASSERT_EQ(cone.size(), 1U);
+  ASSERT_EQ(cone[0].radii.size(), cone[0].axis.size());
+  for (std::size_t i = 0; i < cone[0].axis.size(); ++i) {
+    const double z = (pose.inverse() * cone[0].axis[i]).z();
+    EXPECT_NEAR(cone[0].radii[i], 0.014 - 0.1 * z, 1e-12) << "at " << z;
+  }
+  EXPECT_FALSE(cone[0].ball_center);
+
+  const auto bow = gripsOfSolid(TorusArc{0.04, 0.009, 0.5 * kPi}, pose);
+  ASSERT_EQ(bow.size(), 1U);
+  ASSERT_EQ(bow[0].radii.size(), bow[0].axis.size());
+  for (const double radius : bow[0].radii)
+    EXPECT_DOUBLE_EQ(radius, 0.009);
+
+  const auto flat = gripsOfSolid(EllipticCylinder{0.015, 0.012, 0.1}, pose);
+  ASSERT_EQ(flat.size(), 1U);
+  EXPECT_DOUBLE_EQ(flat[0].radii.front(), 0.015) << "half the larger size of the section";
+}
+
+TEST(GripLabels, RadiiOfAChainAreThoseOfItsPartsInOrder)
+{
+  Scene scene;
+  const std::size_t upper = scene.add(Cylinder{0.008, 0.1}, at(0.0, 0.0, 0.15));
+  const std::size_t lower = scene.add(Cylinder{0.012, 0.1}, at(0.0, 0.0, 0.05));
+  scene.join({upper, lower});
+  const std::vector<Grip> grips = label(scene).grips();
+  ASSERT_EQ(grips.size(), 1U);
+  ASSERT_EQ(grips[0].radii.size(), grips[0].axis.size());
+  for (std::size_t i = 0; i < grips[0].axis.size(); ++i) {
+    const double z = grips[0].axis[i].z();
+    if (std::abs(z - 0.1) > 1e-9) {
+      EXPECT_DOUBLE_EQ(grips[0].radii[i], z > 0.1 ? 0.008 : 0.012) << "at " << z;
+    }
+  }
+}
+
+TEST(GripLabels, BallHasACentreAndNoDirection)
+{
+  const Eigen::Vector3d place(0.1, 0.2, 0.3);
+  const auto ball = gripsOfSolid(Sphere{0.02}, at(0.1, 0.2, 0.3));
+  ASSERT_EQ(ball.size(), 1U);
+  ASSERT_TRUE(ball[0].ball_center);
+  EXPECT_TRUE(ball[0].ball_center->isApprox(place));
+  const auto egg = gripsOfSolid(Ellipsoid{{0.018, 0.018, 0.024}}, lying(0.1, 0.2, 0.3));
+  ASSERT_EQ(egg.size(), 1U);
+  ASSERT_TRUE(egg[0].ball_center);
+  EXPECT_TRUE(egg[0].ball_center->isApprox(place));
+  EXPECT_FALSE(gripsOfSolid(Ellipsoid{{0.015, 0.015, 0.04}}, lying(0.1, 0.2, 0.3)).at(0).ball_center) << "slender";
+  EXPECT_FALSE(gripsOfSolid(Cylinder{0.02, 0.04}, lying(0.1, 0.2, 0.3)).at(0).ball_center) << "flat ends";
+}
+
 /// A bar of 20 cm, 0.8 m before the camera and parallel to the image, with a plate right behind it.
 View barBeforePlate(double clearance)
 {
@@ -412,6 +474,9 @@ TEST(GroundTruth, DescribesABarThatIsHalfHidden)
   EXPECT_EQ(bar.object, "rail");
   EXPECT_EQ(bar.label, 1U);
   EXPECT_NEAR(bar.radius, 0.01, 1e-12);
+  ASSERT_EQ(bar.radii.size(), bar.axis.size());
+  EXPECT_NEAR(bar.radii.front(), 0.01, 1e-12);
+  EXPECT_FALSE(bar.ball_center);
   EXPECT_NEAR(bar.length, 0.2, 1e-12);
   EXPECT_NEAR(bar.distance, 0.8, 1e-12);
   EXPECT_NEAR(bar.occluded_share, 0.5, 0.01);
