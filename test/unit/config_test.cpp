@@ -170,6 +170,8 @@ TEST(ConfigFromYaml, RefusesWithNameValueAndRange)
   EXPECT_NE(messageOf("shell: {radius_step: 0.0001, length_resolution: 0.0005}\nhand: {capture_radius: 0.5}")
                 .find("too fine"),
             std::string::npos);
+  EXPECT_NE(messageOf("hand_poses: {approach_z: -0.001}").find("too short for a direction"), std::string::npos);
+  EXPECT_EQ(messageOf("hand_poses: {approach_z: -1}"), "");
   EXPECT_THROW(configFromYamlFile("/nonexistent.yaml", Config()), ParameterError);
   EXPECT_THROW(configFromYamlFile("/", Config()), ParameterError);
 }
