@@ -11,6 +11,12 @@ namespace grasp_affordances
 
 /// A pose of a hand that is open around a handle, ready to close: origin on the handle's axis, x forward along the
 /// approach, z along the axis, y the direction in which fingers and thumb oppose. Seen along x the hand comes from -x.
+/// For a symmetric hand z and -z, a turn about x by pi, are the same grasp: z is along the handle's axis, and the same
+/// way along a bent one in all its poses.
+///
+/// With a tool (HandPosesConfig::tool_x, ...) it is the tool's pose then: T_cloud_tool = T_cloud_hand * T_hand_tool,
+/// where T_hand_tool is turned by roll, pitch and yaw about the hand's fixed x, y and z and is at (tool_x, tool_y,
+/// tool_z). The hand's own pose is T_cloud_tool * T_hand_tool^-1.
 struct GraspPose
 {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of the tool, m, in the cloud's frame

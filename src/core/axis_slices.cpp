@@ -1,5 +1,7 @@
 #include "core/axis_slices.h"
 
+#include "core/grow_to.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,41 +10,10 @@ namespace grasp_affordances
 namespace
 {
 
-/// Grows memory to a size, and where it must, to twice what it was.
-template <typename Number>
-void growTo(std::size_t size, std::vector<Number>& memory)
-{
-  if (size > memory.size()) {
-    memory.resize(std::max(size, 2 * memory.size()));
-  }
-}
-
 ChosenPoints fourArrays(std::vector<float>& memory)
 {
   const std::size_t size = memory.size() / 4;
   return {&memory[0], &memory[size], &memory[2 * size], &memory[3 * size]};
-}
-
-/// By how much the first choice, in single precision, may be wrong about a point's place (m).
-double roundingWithin(const CylinderPiece& piece)
-{
-  constexpr double kRounding = 1e-6;  // some 16 units in the last place
-  const double reach = std::hypot(piece.radius, std::max(std::abs(piece.begin), std::abs(piece.end)));
-  return kRounding * (piece.origin.cwiseAbs().maxCoeff() + reach + reach * reach / piece.radius);
-}
-
-CylinderBounds looseBounds(const CylinderPiece& piece, double rounding)
-{
-  CylinderBounds bounds;
-  Eigen::Map<Eigen::Vector3f>(bounds.origin) = piece.origin.cast<float>();
-  Eigen::Map<Eigen::Vector3f>(bounds.axis) = piece.axis.cast<float>();
-  bounds.begin = static_cast<float>(piece.begin - 2 * rounding);
-  bounds.end = static_cast<float>(piece.end + 2 * rounding);
-  bounds.squared_radius = static_cast<float>((piece.radius + rounding) * (piece.radius + rounding));
-  const double z = piece.middle().z(), half = piece.reach(Eigen::Vector3d::UnitZ()) + rounding;
-  bounds.nearest = static_cast<float>(z - half);
-  bounds.farthest = static_cast<float>(z + half);
-  return bounds;
 }
 
 }  // namespace

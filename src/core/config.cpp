@@ -3,6 +3,7 @@
 #include "grasp_affordances/parameters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace grasp_affordances
@@ -102,11 +103,25 @@ void checkInterval(const std::string& axis, double min, double max)
   }
 }
 
+void checkDirection(const HandPosesConfig& config)
+{
+  const double length = std::hypot(config.approach_x, config.approach_y, config.approach_z);
+  constexpr double kShortest = 0.01;
+  if (length > 0.0 && length < kShortest) {
+    std::ostringstream message;
+    message << "hand_poses/approach_x: (" << config.approach_x << ", " << config.approach_y << ", " << config.approach_z
+            << ") with hand_poses/approach_y and hand_poses/approach_z is too short for a "
+            << "direction: its length must be 0, for any, or at least " << kShortest;
+    throw ParameterError(message.str());
+  }
+}
+
 }  // namespace
 
 void validate(const Config& config)
 {
   visitParameters(config, RangeCheck());
+  checkDirection(config.hand_poses);
   checkInterval("x", config.workspace.min_x, config.workspace.max_x);
   checkInterval("y", config.workspace.min_y, config.workspace.max_y);
   checkInterval("z", config.workspace.min_z, config.workspace.max_z);

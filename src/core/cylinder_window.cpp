@@ -116,4 +116,25 @@ void cylinderSpans(const RangeImage& image, const CylinderPiece& piece, std::vec
   }
 }
 
+double roundingWithin(const CylinderPiece& piece)
+{
+  constexpr double kRounding = 1e-6;  // some 16 units in the last place
+  const double reach = std::hypot(piece.radius, std::max(std::abs(piece.begin), std::abs(piece.end)));
+  return kRounding * (piece.origin.cwiseAbs().maxCoeff() + reach + reach * reach / piece.radius);
+}
+
+CylinderBounds looseBounds(const CylinderPiece& piece, double rounding)
+{
+  CylinderBounds bounds;
+  Eigen::Map<Eigen::Vector3f>(bounds.origin) = piece.origin.cast<float>();
+  Eigen::Map<Eigen::Vector3f>(bounds.axis) = piece.axis.cast<float>();
+  bounds.begin = static_cast<float>(piece.begin - 2 * rounding);
+  bounds.end = static_cast<float>(piece.end + 2 * rounding);
+  bounds.squared_radius = static_cast<float>((piece.radius + rounding) * (piece.radius + rounding));
+  const double z = piece.middle().z(), half = piece.reach(Eigen::Vector3d::UnitZ()) + rounding;
+  bounds.nearest = static_cast<float>(z - half);
+  bounds.farthest = static_cast<float>(z + half);
+  return bounds;
+}
+
 }  // namespace grasp_affordances

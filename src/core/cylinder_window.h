@@ -32,4 +32,10 @@ struct CylinderPiece
 /// Pixels, row by row, that contain every measured point within the piece.
 void cylinderSpans(const RangeImage& image, const CylinderPiece& piece, std::vector<PixelSpan>& spans);
 
+/// By how much chooseInCylinder, in single precision, may be wrong about the place of a point in a piece (m).
+double roundingWithin(const CylinderPiece& piece);
+
+/// Bounds of a piece for chooseInCylinder, so loose that rounding loses no point.
+CylinderBounds looseBounds(const CylinderPiece& piece, double rounding);
+
 }  // namespace grasp_affordances

@@ -1,6 +1,9 @@
 #include "grasp_affordances/localizer.h"
 #include "grasp_affordances/parameters.h"
 
+#include "core/hand_pose_search.h"
+#include "core/prepared_views.h"
+#include "core/thread_team.h"
 #include "core/view_agreement.h"
 #include "simulation/camera_orbit.h"
 #include "support/scenes.h"
@@ -127,6 +130,29 @@ TEST(ViewAgreementAllocations, NoneForViewsSeenBefore)
   const double again = agreement.disagreement(*first_image, *second_image, T_first_second);
   EXPECT_EQ(allocations, before);
   EXPECT_EQ(again, expected);
+}
+
+TEST(HandPoseAllocations, NoneForAHandleSeenBefore)
+{
+  const Cloud cloud = captureView(makeScene("table", 1), 1).cloud;
+  const Config config;
+  std::vector<GraspHandle> handles = Localizer(config).localize(cloud).handles;
+  ASSERT_GT(handles.size(), 0U);
+  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+  ThreadTeam team(1);
+  PreparedViews views;
+  views.update({{&cloud, identity}}, config, identity, team);
+  HandPoseSearch search;
+  std::size_t poses = 0, before = 0;
+  for (int round = 0; round < 2; ++round) {
+    before = allocations;
+    for (GraspHandle& handle : handles) {
+      search.search(views, config, identity, handle);
+      poses += handle.hand_poses.size();
+    }
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(poses, 0U);
 }
 
 }  // namespace

@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace grasp_affordances::test
 {
@@ -119,6 +122,53 @@ TEST(Readme, DocumentsEveryParameterAsItIs)
   }
 }
 
+/// Files of config/hands, without `.yaml`.
+std::vector<std::string> handNames()
+{
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(GRASP_AFFORDANCES_SOURCE_DIR "/config/hands")) {
+    EXPECT_EQ(entry.path().extension(), ".yaml") << entry.path();
+    names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class HandFile : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(HandFile, HoldsAHandAndNothingElse)
+{
+  const std::string path = GRASP_AFFORDANCES_SOURCE_DIR "/config/hands/" + GetParam() + ".yaml";
+  for (const std::string& preset : presetNames()) {
+    std::map<std::string, std::string> values = listingOf(configFromYamlFile(path, presetConfig(preset))).values;
+    for (const auto& [name, before] : listingOf(presetConfig(preset)).values) {
+      const bool of_hand = name.rfind("hand/", 0) == 0 || name.rfind("hand_poses/tool_", 0) == 0 ||
+                           name == "hand_poses/approach_distance";
+      EXPECT_TRUE(of_hand || values[name] == before) << name << " in " << path;
+    }
+  }
+}
+
+TEST_P(HandFile, HasARowWithItsNumbersInTheDocumentation)
+{
+  const std::string path = GRASP_AFFORDANCES_SOURCE_DIR "/config/hands/" + GetParam() + ".yaml";
+  std::map<std::string, std::string> values = listingOf(configFromYamlFile(path, Config())).values;
+  const std::string row = "| `" + GetParam() + "` | " + values["hand/capture_radius"] + " | " +
+                          values["hand/finger_thickness"] + " | " + values["hand/palm_width"] + " | " +
+                          values["hand/palm_depth"] + " |";
+  EXPECT_NE(textOfFile(GRASP_AFFORDANCES_SOURCE_DIR "/docs/hands.md").find(row), std::string::npos) << row;
+  const std::string text = textOfFile(path);
+  for (const char* size : {"capture_radius", "finger_thickness", "palm_width", "palm_depth"}) {
+    EXPECT_NE(text.find(std::string("  ") + size + ": "), std::string::npos) << size << " in " << path;
+  }
+  EXPECT_NE(text.find("# Source"), std::string::npos) << path;
+}
+
+INSTANTIATE_TEST_SUITE_P(Config, HandFile, testing::ValuesIn(handNames()),
+                         [](const testing::TestParamInfo<std::string>& info) { return info.param; });
+
 std::string messageOf(const std::string& yaml)
 {
   try {
@@ -170,6 +220,8 @@ TEST(ConfigFromYaml, RefusesWithNameValueAndRange)
   EXPECT_NE(messageOf("shell: {radius_step: 0.0001, length_resolution: 0.0005}\nhand: {capture_radius: 0.5}")
                 .find("too fine"),
             std::string::npos);
+  EXPECT_NE(messageOf("hand_poses: {approach_z: -0.001}").find("too short for a direction"), std::string::npos);
+  EXPECT_EQ(messageOf("hand_poses: {approach_z: -1}"), "");
   EXPECT_THROW(configFromYamlFile("/nonexistent.yaml", Config()), ParameterError);
   EXPECT_THROW(configFromYamlFile("/", Config()), ParameterError);
 }
