@@ -16,6 +16,9 @@ namespace
 {
 
 constexpr std::size_t kCurvePoints = 17;
+// An end that is found short of where it is known to be counts less: what hides a part of a handle, and samples that
+// miss it, make it shorter; nothing makes it longer as often.
+constexpr double kShortfallWeight = 0.25;
 constexpr double kAxisSupport = 0.25;  // of the length, over which the axis of a bent handle is taken
 
 /// The place of an extent along a curve, the end with the smaller way first.
@@ -157,8 +160,9 @@ AxisCurve TrackedHandle::averagedCurve(const AxisCurve& found, const std::vector
   if (weight == 1.0 && pieces.empty()) {
     return found;
   }
+  const auto gone = [weight](double beyond) { return weight * (beyond < 0.0 ? kShortfallWeight : 1.0) * beyond; };
   std::vector<Eigen::Vector3d> points =
-      curve.spread(weight * extent.from, curve.length() + weight * (extent.to - curve.length()), kCurvePoints);
+      curve.spread(-gone(-extent.from), curve.length() + gone(extent.to - curve.length()), kCurvePoints);
   const Displacements displacements(curve, found);
   for (Eigen::Vector3d& point : points) {
     point += weight * displacements(point);

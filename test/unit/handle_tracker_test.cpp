@@ -314,7 +314,7 @@ TEST(HandleTracker, PiecesThatStayApartAreHandlesOfTheirOwn)
     EXPECT_EQ(ids(tracker.update(halves, kPeriod * i)), Ids{1});
   }
   Handles known;
-  for (int i = 10; i < 60; ++i) {
+  for (int i = 10; i < 120; ++i) {
     known = tracker.update(halves, kPeriod * i);
   }
   ASSERT_EQ(ids(known), (Ids{1, 2}));

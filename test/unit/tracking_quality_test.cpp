@@ -10,6 +10,7 @@
 #include "simulation/sensor.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
