@@ -18,7 +18,7 @@ from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
 
 from grasp_affordances.msg import HandleArray, LocalizationStatistics
-from helpers import Launch, Listener, Process, executable, rotated, wait_until
+from helpers import Launch, Listener, Process, executable, publisher, rotated, wait_until
 
 CAMERA = 'by_hand_optical'
 PERIOD = 0.1  # s
@@ -87,11 +87,10 @@ class Tracking(unittest.TestCase):
         file = os.path.join(cls.folder, '%s_%d.pcd' % (scene, noise))
         subprocess.run([executable('grasp_affordances', 'simulate'), '--scene', scene, '--noise-seed', str(1000 * noise),
                         '--out', file], check=True, stdout=subprocess.DEVNULL, timeout=60)
-        listener = Listener('read', PointCloud2)
-        with Process('grasp_affordances', 'pcd_publisher', '_file:=' + file, '_rate:=0', '_frame_id:=' + CAMERA,
-                     'points:=read'):
+        with publisher(file, rate=5, frame=CAMERA):
+            listener = Listener('points', PointCloud2)
             cloud = listener.wait()
-        listener.close()
+            listener.close()
         return cloud
 
     def setUp(self):
@@ -164,7 +163,7 @@ class Tracking(unittest.TestCase):
                 self.assertTrue(best <= set(ids(message)), 'cloud %d: %s of %s' % (i, ids(message), best))
             self.assertEqual(message.header.frame_id, CAMERA)
             hits = {handle.id: handle.hits for handle in message.handles}
-            self.assertGreater(min(hits[id] for id in best), 10)
+            self.assertGreaterEqual(min(hits[id] for id in best), 8)
 
     def test_handles_go_after_their_lifetime(self):
         with Node('localizer_node', '_tracking/lifetime:=0.5') as node:
@@ -196,7 +195,7 @@ class Tracking(unittest.TestCase):
 
     def test_handles_are_tracked_in_the_fixed_frame(self):
         # The same cloud from a camera that moves: in the room nothing is where it was.
-        with Node('localizer_node', '_fixed_frame:=room') as node:
+        with Node('localizer_node', '_fixed_frame:=room', '_transform_timeout:=5') as node:
             self.connect(transforms=1)
             known = set()
             for i in range(3):
@@ -215,7 +214,8 @@ class Tracking(unittest.TestCase):
                 self.assertLess(math.dist(last[id], (x - 1.0, y, z)), 1e-6)
 
     def test_outputs_in_the_target_frame_are_tracked_in_the_fixed_one(self):
-        with Node('localizer_node', '_fixed_frame:=' + CAMERA, '_target_frame:=room') as node:
+        with Node('localizer_node', '_fixed_frame:=' + CAMERA, '_target_frame:=room',
+                  '_transform_timeout:=5') as node:
             self.connect(transforms=1)
             for i in range(2):
                 self.moving.publish([shifted(0.5 * i, self.start + rospy.Duration(i * PERIOD))])
@@ -240,7 +240,7 @@ class Tracking(unittest.TestCase):
 
     def test_several_cameras(self):
         with Node('multi_camera_node', '_views:=2', '_target_frame:=room', '_fixed_frame:=' + CAMERA,
-                  '_approach_frame:=' + CAMERA) as node:
+                  '_approach_frame:=' + CAMERA, '_transform_timeout:=5') as node:
             self.connect(topics=2, transforms=1)
             for i in range(4):
                 self.moving.publish([shifted(0.5 * i, self.start + rospy.Duration(i * PERIOD))])
