@@ -108,15 +108,18 @@ void LocalizationOutputs::leaveUntransformed(const std::string& reason)
 }
 
 void LocalizationOutputs::publish(const Localization& localization, const Config& config,
-                                  const std_msgs::Header& header, Clock::time_point arrival)
+                                  const std_msgs::Header& header, Clock::time_point arrival,
+                                  const FixedFrame& fixed_frame)
 {
   ++processed_;
   if (!localization.warnings.empty() && warnings_.due()) {
     ROS_WARN_STREAM_NAMED(name_, joined(localization.warnings));
   }
   shells_.publish(boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header)));
-  handles_.publish(boost::make_shared<HandleArray>(handlesMessage(localization.handles, header)));
-  hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(localization.handles, header)));
+  const std::vector<GraspHandle>& handles =
+      handle_tracking_.update(localization.handles, config.tracking, header, fixed_frame);
+  handles_.publish(boost::make_shared<HandleArray>(handlesMessage(handles, header)));
+  hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(handles, header)));
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
 
   auto statistics = boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, config, header));

@@ -2,6 +2,7 @@
 
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
+#include "nodelets/handle_tracking.h"
 #include "nodelets/markers.h"
 #include "nodelets/throttle.h"
 
@@ -47,9 +48,10 @@ public:
   /// Counts a cloud that a transform is missing for, and says which.
   void leaveUntransformed(const std::string& reason);
 
-  /// Counts and publishes a result. `arrival`: when its cloud came in. `header`: of all outputs.
+  /// Counts and publishes a result, of its handles what is known of them after it. `arrival`: when its cloud came in.
+  /// `header`: of all outputs. `fixed_frame`: that handles are tracked in.
   void publish(const Localization& localization, const Config& config, const std_msgs::Header& header,
-               Clock::time_point arrival);
+               Clock::time_point arrival, const FixedFrame& fixed_frame = FixedFrame());
 
 private:
   bool anybodyListens() const;
@@ -77,6 +79,7 @@ private:
   std::uint64_t processed_ = 0;
   std::uint64_t rejected_ = 0;
   std::uint64_t untransformed_ = 0;
+  HandleTracking handle_tracking_;
   ShellMarkers shell_markers_;
   Throttle rejections_;
   Throttle missing_transforms_;

@@ -98,7 +98,9 @@ void LocalizerNodelet::onInit()
     throw;
   }
   clock_complaint_ = complainWithoutClock(getNodeHandle(), getName());
-  if (!parameters_.workspace_frame.empty() || !parameters_.target_frame.empty()) {
+  const auto named = [](const std::string& frame) { return !frame.empty(); };
+  if (named(parameters_.workspace_frame) || named(parameters_.target_frame) || named(parameters_.fixed_frame) ||
+      named(parameters_.approach_frame)) {
     transforms_ = std::make_unique<Transforms>(getNodeHandle());
   }
   worker_ = std::make_unique<NewestOnlyWorker<Arrival>>([this](const Arrival& arrival) { process(arrival); });
@@ -155,8 +157,13 @@ void LocalizerNodelet::localize(const Arrival& arrival)
   const Transforms::Deadline deadline = Transforms::after(parameters_.transform_timeout);
   const Eigen::Isometry3d T_workspace_cloud = transform(parameters_.workspace_frame, header, deadline);
   const Eigen::Isometry3d T_target_cloud = transform(parameters_.target_frame, header, deadline);
+  const Eigen::Isometry3d T_approach_cloud = transform(parameters_.approach_frame, header, deadline);
+  FixedFrame fixed_frame{parameters_.fixed_frame};
+  if (!fixed_frame.name.empty()) {
+    fixed_frame.T_fixed_output = transform(fixed_frame.name, header, deadline) * T_target_cloud.inverse();
+  }
 
-  localizer_->localize(cloud_, localization_, T_workspace_cloud);
+  localizer_->localize(cloud_, localization_, T_workspace_cloud, T_approach_cloud);
   if (!parameters_.target_frame.empty()) {
     for (Shell& shell : localization_.shells) {
       shell = transformed(shell, T_target_cloud);
@@ -166,7 +173,7 @@ void LocalizerNodelet::localize(const Arrival& arrival)
     }
     header.frame_id = parameters_.target_frame;
   }
-  outputs_.publish(localization_, localizer_->config(), header, arrival.time);
+  outputs_.publish(localization_, localizer_->config(), header, arrival.time, fixed_frame);
 }
 
 Eigen::Isometry3d LocalizerNodelet::transform(const std::string& frame, const std_msgs::Header& header,

@@ -242,12 +242,15 @@ void MultiCameraNodelet::localize(const Arrival& arrival)
                         transforms_->lookup(header.frame_id, message.header.frame_id, message.header.stamp, deadline)};
     header.stamp = std::max(header.stamp, message.header.stamp);
   }
-  Eigen::Isometry3d T_workspace_target = Eigen::Isometry3d::Identity();
-  if (!parameters.workspace_frame.empty()) {
-    T_workspace_target = transforms_->lookup(parameters.workspace_frame, header.frame_id, header.stamp, deadline);
-  }
-  localizer_->localize(posed_clouds_, localization_, T_workspace_target);
-  outputs_.publish(localization_, localizer_->config(), header, arrival.time);
+  const auto transform_to = [&](const std::string& frame) {
+    return frame.empty() ? Eigen::Isometry3d(Eigen::Isometry3d::Identity())
+                         : transforms_->lookup(frame, header.frame_id, header.stamp, deadline);
+  };
+  const Eigen::Isometry3d T_workspace_target = transform_to(parameters.workspace_frame);
+  const Eigen::Isometry3d T_approach_target = transform_to(parameters.approach_frame);
+  const FixedFrame fixed_frame{parameters.fixed_frame, transform_to(parameters.fixed_frame)};
+  localizer_->localize(posed_clouds_, localization_, T_workspace_target, T_approach_target);
+  outputs_.publish(localization_, localizer_->config(), header, arrival.time, fixed_frame);
 }
 
 void MultiCameraNodelet::convert(const sensor_msgs::PointCloud2& message, View& view)

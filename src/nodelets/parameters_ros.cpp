@@ -27,6 +27,8 @@ void readNodeParameters(ParameterReader& read, NodeParameters& result)
   read("lazy", result.lazy, "");
   readFrame("workspace_frame", read, result.workspace_frame);
   readFrame("target_frame", read, result.target_frame);
+  readFrame("fixed_frame", read, result.fixed_frame);
+  readFrame("approach_frame", read, result.approach_frame);
   read("transform_timeout", result.transform_timeout, Range<double>{0.0, 10.0}, "s", "");
 }
 

@@ -18,6 +18,8 @@ struct NodeParameters
   bool lazy = true;                ///< subscribe only while somebody listens to an output
   std::string workspace_frame;     ///< of the box in `config`; empty: the frame of the cloud
   std::string target_frame;        ///< of the outputs; empty: the frame of the cloud
+  std::string fixed_frame;         ///< in which handles stand still and are tracked; empty: that of the outputs
+  std::string approach_frame;      ///< of the direction of approach in `config`; empty: the frame of the cloud
   double transform_timeout = 0.1;  ///< s of wall-clock time that a cloud waits for its transforms
 };
 
@@ -34,7 +36,7 @@ NodeParameters nodeParameters(const ros::NodeHandle& private_node_handle);
 struct MultiCameraParameters
 {
   NodeParameters node;       ///< `target_frame` is the frame that the clouds are brought into: it must be given, and is
-                             ///< that of the box in `config`, too, where no other is
+                             ///< that of the box and of the direction in `config`, too, where no other is
   std::uint32_t views = 2;   ///< cameras
   double sync_slop = 0.035;  ///< s by which the stamps of the clouds of one moment may differ
 };

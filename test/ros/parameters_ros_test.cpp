@@ -52,13 +52,19 @@ TEST(NodeParameters, Frames)
 {
   EXPECT_EQ(NodeParameters().workspace_frame, "");
   EXPECT_EQ(NodeParameters().target_frame, "");
+  EXPECT_EQ(NodeParameters().fixed_frame, "");
+  EXPECT_EQ(NodeParameters().approach_frame, "");
   XmlRpcValue parameters;
   parameters["workspace_frame"] = "table";
   parameters["target_frame"] = "/base";
+  parameters["fixed_frame"] = "/odom";
+  parameters["approach_frame"] = "base_link";
   parameters["transform_timeout"] = 1;
   const NodeParameters read = nodeParameters(parameters);
   EXPECT_EQ(read.workspace_frame, "table");
   EXPECT_EQ(read.target_frame, "base");
+  EXPECT_EQ(read.fixed_frame, "odom");
+  EXPECT_EQ(read.approach_frame, "base_link");
   EXPECT_EQ(read.transform_timeout, 1.0);
   EXPECT_TRUE(contains(refusal("", "target_frame", 3), "the name of a frame"));
   EXPECT_TRUE(contains(refusal("", "transform_timeout", -0.1), "[0, 10] s"));

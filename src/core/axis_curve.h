@@ -1,0 +1,53 @@
+#pragma once
+
+#include "grasp_affordances/handle.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// A handle's axis, straight or bent, measured by the way s along it: metres from its first end. Beyond its ends it
+/// goes on straight. Which end is the first is arbitrary.
+class AxisCurve
+{
+public:
+  /// What is nearest to a point.
+  struct Foot
+  {
+    double s = 0.0;         ///< m, below 0 or above length() where the point lies beyond an end
+    double distance = 0.0;  ///< m, from the curve between its ends
+  };
+
+  /// A straight one about the centroid where the handle has no polyline with a length.
+  explicit AxisCurve(const GraspHandle& handle);
+
+  /// @param points  from end to end, at least two, no two successive ones equal
+  explicit AxisCurve(std::vector<Eigen::Vector3d> points);
+
+  const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  double length() const { return ways_.back(); }
+  bool straight() const { return points_.size() == 2; }
+
+  Eigen::Vector3d at(double s) const;
+  Eigen::Vector3d direction(double s) const;  ///< unit, towards larger s
+  Foot foot(const Eigen::Vector3d& point) const;
+
+  /// So many points, at least two, evenly from one place to the other.
+  std::vector<Eigen::Vector3d> spread(double from, double to, std::size_t count) const;
+
+private:
+  std::size_t pieceAt(double s) const;
+  void measure();
+
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<double> ways_;  ///< to each point
+};
+
+/// The straight one that fits points, at least two, with the least squares: from the first of them to the last.
+AxisCurve straightCurve(const std::vector<Eigen::Vector3d>& points);
+
+}  // namespace grasp_affordances

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "grasp_affordances/config.h"
+#include "grasp_affordances/handle.h"
+#include "grasp_affordances/handle_tracker.h"
+
+#include <std_msgs/Header.h>
+#include <Eigen/Geometry>
+
+#include <string>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// Where handles stand still, as seen from the outputs at the time of a cloud.
+struct FixedFrame
+{
+  std::string name;  ///< empty: the frame of the outputs
+  Eigen::Isometry3d T_fixed_output = Eigen::Isometry3d::Identity();
+};
+
+/// Tracks the handles of a node in a fixed frame. Begins anew where time goes back, which the stamps of the clouds tell
+/// (see TimeJumps), and where the frame that they are tracked in is another one. Of one thread.
+class HandleTracking
+{
+public:
+  /// The handles that are known after a cloud, by id, in the frame of the outputs. They remain valid until the next
+  /// call.
+  /// @param found  in the frame of the header, whose stamp counts; where that is zero, the time of the call does
+  const std::vector<GraspHandle>& update(const std::vector<GraspHandle>& found, const TrackingConfig& config,
+                                         const std_msgs::Header& header, const FixedFrame& fixed_frame);
+
+private:
+  HandleTracker tracker_;
+  std::string frame_;
+  std::vector<GraspHandle> handles_;
+};
+
+}  // namespace grasp_affordances
