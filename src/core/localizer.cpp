@@ -6,6 +6,7 @@
 #include "core/sample_block.h"
 #include "core/stopwatch.h"
 #include "core/thread_team.h"
+#include "core/time_budget.h"
 
 #include <algorithm>
 #include <optional>
@@ -82,6 +83,7 @@ void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localizati
   auto& [config, optional_team, single, views, blocks, samples, handle_finder, hand_pose_search] = *implementation_;
   ThreadTeam& team = *optional_team;
   Stopwatch stopwatch, total;
+  const TimeBudget budget(config.sampling.time_budget_ms);
   views.update(posed_clouds, config, T_workspace_common, team);
   result.milliseconds = StageTimes();
   result.milliseconds.preparation = stopwatch.lap();
@@ -93,6 +95,11 @@ void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localizati
   constexpr std::size_t kSize = SampleBlock::kSamples;
   team.forEach((count + kSize - 1) / kSize, [&](std::size_t i, std::size_t member) {
     const std::size_t begin = i * kSize, end = std::min(begin + kSize, count);
+    if (budget.spent()) {
+      std::for_each(&samples[begin], &samples[begin] + (end - begin),
+                    [](SampleResult& sample) { sample.outcome = Outcome::out_of_time; });
+      return;
+    }
     blocks[member].examine(views, config, begin, end, &samples[begin]);
   });
 
