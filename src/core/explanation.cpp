@@ -46,7 +46,7 @@ std::string nothingSampled(const Localization& localization)
     return "there was no cloud to draw samples from";
   }
   const bool beyond_workspace = reasons.find("workspace") != std::string::npos;
-  return reasons + (beyond_workspace ? ": widen the box workspace/min_x to workspace/max_z, or look at its frame"
+  return reasons + (beyond_workspace ? ": widen that box, workspace/min_x to workspace/max_z or the region of a call, or look at its frame"
                                      : ": look at the sensor, its distance, and what publishes its cloud");
 }
 

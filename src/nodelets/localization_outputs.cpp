@@ -105,8 +105,6 @@ void LocalizationOutputs::leaveOut()
   ++left_out_;
 }
 
-void LocalizationOutputs::configure(const Config& /*config*/) {}
-
 void LocalizationOutputs::reject(const std::string& reason)
 {
   ++rejected_;

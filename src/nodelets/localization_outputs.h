@@ -59,16 +59,14 @@ public:
 
   // The following come from one thread: the worker's.
 
-  /// Takes over what of the parameters is the outputs'; before each cloud.
-  void configure(const Config& config);
-
   /// Counts a cloud that cannot be used, and says why.
   void reject(const std::string& reason);
 
   /// Counts a cloud that a transform is missing for, and says which.
   void leaveUntransformed(const std::string& reason);
 
-  /// Counts and publishes a result. `arrival`: when its cloud came in. `header`: of all outputs.
+  /// Counts and publishes a result. `config`: of this cloud, the outputs' own parameters among them. `arrival`: when
+  /// its cloud came in. `header`: of all outputs.
   Messages publish(const Localization& localization, const Config& config, const std_msgs::Header& header,
                    Clock::time_point arrival);
 

@@ -228,7 +228,6 @@ void LocalizerNodelet::localize(const Arrival& arrival, const std::optional<Regi
   if (call) {
     config.tracking.min_hits = 1;  // who asks once is answered at once
   }
-  outputs_.configure(config);
   cloudFromPointCloud2(*arrival.message, own_place_->cloud);
   own_place_->cloud.intrinsics = camera_info_.intrinsics(own_place_->cloud, getName());
   const std_msgs::Header header = localize(arrival.message->header, config, region, *own_place_);

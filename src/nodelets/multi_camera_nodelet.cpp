@@ -270,7 +270,6 @@ void MultiCameraNodelet::localize(const Arrival& arrival, const std::optional<Re
   if (call) {
     config.tracking.min_hits = 1;  // who asks once is answered at once
   }
-  outputs_.configure(config);
   const NodeParameters& parameters = parameters_.node;
   const Transforms::Deadline deadline = Transforms::after(parameters.transform_timeout);
   std_msgs::Header header;

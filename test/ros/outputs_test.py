@@ -44,8 +44,7 @@ def norm(vector):
 
 class Outputs(unittest.TestCase):
     def setUp(self):
-        wait_until(lambda: {topic for topic, _ in rospy.get_published_topics('/localizer')} >=
-                   {'/localizer/' + name for name in OUTPUTS}, 'advertisement')
+        wait_until(lambda: len(rospy.get_published_topics('/localizer')) == len(OUTPUTS), 'advertisement')
         self.listeners = {}
 
     def tearDown(self):
