@@ -58,10 +58,13 @@ constexpr std::size_t kOutcomes = 11;
 /// Key of an outcome in `counts` ("too_few_points", ..., "shells").
 const char* outcomeName(Outcome outcome);
 
+struct Config;
 struct Localization;
 
-/// One sentence for people that says why there is no shell, from where the samples ended; empty where there is one.
-std::string explainNothing(const Localization& localization);
+/// One sentence for people that says why there is no handle, and which parameter to look at; empty where there is one.
+/// It judges by what became of most samples. From any thread.
+/// @param config  that the result was found with
+std::string explainNothing(const Localization& localization, const Config& config);
 
 /// Wall time for the whole cloud, and time per stage summed over the threads.
 struct StageTimes

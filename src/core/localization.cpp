@@ -26,19 +26,4 @@ const char* outcomeName(Outcome outcome)
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
-std::string explainNothing(const Localization& localization)
-{
-  if (!localization.shells.empty()) {
-    return "";
-  }
-  std::string ends;
-  for (std::size_t i = 0; i < kOutcomes; ++i) {
-    if (localization.counts[i] > 0) {
-      ends += (ends.empty() ? "" : ", ") + std::to_string(localization.counts[i]) + " " +
-              outcomeName(static_cast<Outcome>(i));
-    }
-  }
-  return "no shell: of " + std::to_string(localization.sampled) + " samples " + ends;
-}
-
 }  // namespace grasp_affordances

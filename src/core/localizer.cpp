@@ -7,6 +7,7 @@
 #include "core/sample_draw.h"
 #include "core/stopwatch.h"
 #include "core/thread_team.h"
+#include "core/time_budget.h"
 
 #include <algorithm>
 #include <optional>
@@ -30,9 +31,9 @@ public:
     samples.resize(static_cast<std::size_t>(config.sampling.samples));
   }
 
-  /// Examines the samples [begin, end) and adds what they find. They know nothing of one another: each writes its own
-  /// slot.
-  void examine(std::size_t begin, std::size_t end, Localization& result)
+  /// Examines the samples [begin, end), as long as there is time, and adds what they find. They know nothing of one
+  /// another: each writes its own slot.
+  void examine(std::size_t begin, std::size_t end, const TimeBudget& budget, Localization& result)
   {
     if (config.estimation.estimator == Estimator::normals) {
       Stopwatch stopwatch;
@@ -45,6 +46,11 @@ public:
     constexpr std::size_t kSize = SampleBlock::kSamples;
     team->forEach((end - begin + kSize - 1) / kSize, [&](std::size_t i, std::size_t member) {
       const std::size_t first = begin + i * kSize, last = std::min(first + kSize, end);
+      if (budget.spent()) {
+        std::for_each(&samples[first], &samples[first] + (last - first),
+                      [](SampleResult& sample) { sample.outcome = Outcome::out_of_time; });
+        return;
+      }
       blocks[member].examine(views, config, first, last, draw.points() + first, &samples[first]);
     });
     for (std::size_t i = begin; i < end; ++i) {
@@ -115,6 +121,7 @@ void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localizati
 {
   Implementation& own = *implementation_;
   Stopwatch stopwatch, total;
+  const TimeBudget budget(own.config.sampling.time_budget_ms);
   result.shells.clear();
   result.counts.fill(0);
   result.sampled = 0;
@@ -129,7 +136,7 @@ void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localizati
   own.draw.start(own.views, own.config);
   for (std::size_t begin = 0; begin < own.draw.size();) {
     const std::size_t end = own.draw.drawRound(own.views, own.config, own.samples.data(), *own.team);
-    own.examine(begin, end, result);
+    own.examine(begin, end, budget, result);
     begin = end;
   }
   stopwatch.lap();

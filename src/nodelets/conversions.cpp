@@ -167,7 +167,7 @@ LocalizationStatistics statisticsMessage(const Localization& localization, const
   message.out_of_time = count(Outcome::out_of_time);
   message.shells = count(Outcome::shell);
   message.handles = static_cast<std::uint32_t>(localization.handles.size());
-  message.explanation = explainNothing(localization);
+  message.explanation = explainNothing(localization, config);
 
   message.milliseconds_total = localization.milliseconds.total;
   message.milliseconds_preparation = localization.milliseconds.preparation;

@@ -1,8 +1,5 @@
 #include "nodelets/localization_outputs.h"
 
-#include "grasp_affordances/CylindricalShellArray.h"
-#include "grasp_affordances/HandleArray.h"
-#include "grasp_affordances/LocalizationStatistics.h"
 #include "nodelets/conversions.h"
 
 #include <geometry_msgs/PoseArray.h>
@@ -32,7 +29,7 @@ std::string joined(const std::vector<std::string>& lines)
 }  // namespace
 
 void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const std::string& name, bool lazy,
-                                    std::function<void()> subscribe, std::function<void()> unsubscribe)
+                                    bool on_demand, std::function<void()> subscribe, std::function<void()> unsubscribe)
 {
   const auto changed = [this](const ros::SingleSubscriberPublisher&) { updateSubscriptions(); };
   {
@@ -41,6 +38,7 @@ void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const 
     const std::lock_guard<std::mutex> lock(connections_mutex_);
     name_ = name;
     lazy_ = lazy;
+    on_demand_ = on_demand;
     subscribe_ = std::move(subscribe);
     unsubscribe_ = std::move(unsubscribe);
     shells_ = private_node_handle.advertise<CylindricalShellArray>("shells", 1, changed, changed);
@@ -62,6 +60,15 @@ void LocalizationOutputs::close()
   updateSubscriptions();
 }
 
+void LocalizationOutputs::demand(bool needed)
+{
+  {
+    const std::lock_guard<std::mutex> lock(connections_mutex_);
+    demanded_ = needed;
+  }
+  updateSubscriptions();
+}
+
 bool LocalizationOutputs::anybodyListens() const
 {
   const auto heard = [](const ros::Publisher* publisher) { return publisher->getNumSubscribers() > 0; };
@@ -72,7 +79,7 @@ bool LocalizationOutputs::anybodyListens() const
 void LocalizationOutputs::updateSubscriptions()
 {
   const std::lock_guard<std::mutex> lock(connections_mutex_);
-  const bool needed = open_ && (!lazy_ || anybodyListens());
+  const bool needed = open_ && (!lazy_ || demanded_ || (!on_demand_ && anybodyListens()));
   if (needed == subscribed_) {
     return;
   }
@@ -91,6 +98,13 @@ void LocalizationOutputs::receive(const std::function<bool()>& hand_over)
   dropped_ += hand_over() ? 1 : 0;
 }
 
+void LocalizationOutputs::leaveOut()
+{
+  const std::lock_guard<std::mutex> lock(counters_mutex_);
+  ++received_;
+  ++left_out_;
+}
+
 void LocalizationOutputs::reject(const std::string& reason)
 {
   ++rejected_;
@@ -107,19 +121,21 @@ void LocalizationOutputs::leaveUntransformed(const std::string& reason)
   }
 }
 
-void LocalizationOutputs::publish(const Localization& localization, const Config& config,
-                                  const std_msgs::Header& header, Clock::time_point arrival,
-                                  const FixedFrame& fixed_frame)
+LocalizationOutputs::Messages LocalizationOutputs::publish(const Localization& localization, const Config& config,
+                                                           const std_msgs::Header& header, Clock::time_point arrival,
+                                                           const FixedFrame& fixed_frame)
 {
   ++processed_;
   if (!localization.warnings.empty() && warnings_.due()) {
     ROS_WARN_STREAM_NAMED(name_, joined(localization.warnings));
   }
-  shells_.publish(boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header)));
-  const std::vector<GraspHandle>& handles =
+  const std::vector<GraspHandle>& known =
       handle_tracking_.update(localization.handles, config.tracking, header, fixed_frame);
-  handles_.publish(boost::make_shared<HandleArray>(handlesMessage(handles, header)));
-  hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(handles, header)));
+  const auto shells = boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header));
+  const auto handles = boost::make_shared<HandleArray>(handlesMessage(known, header));
+  shells_.publish(shells);
+  handles_.publish(handles);
+  hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(known, header)));
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
 
   auto statistics = boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, config, header));
@@ -129,10 +145,12 @@ void LocalizationOutputs::publish(const Localization& localization, const Config
   {
     const std::lock_guard<std::mutex> lock(counters_mutex_);
     statistics->clouds_dropped = dropped_;
+    statistics->clouds_left_out = left_out_;
     statistics->clouds_received = received_;
   }
   statistics->milliseconds_latency = std::chrono::duration<double, std::milli>(Clock::now() - arrival).count();
   statistics_.publish(statistics);
+  return {shells, handles, statistics};
 }
 
 }  // namespace grasp_affordances

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "grasp_affordances/CylindricalShellArray.h"
+#include "grasp_affordances/HandleArray.h"
+#include "grasp_affordances/LocalizationStatistics.h"
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
 #include "nodelets/handle_tracking.h"
@@ -28,10 +31,22 @@ class LocalizationOutputs
 public:
   using Clock = std::chrono::steady_clock;
 
-  /// Advertises. `subscribe` is called when the inputs are needed, which is while somebody listens to an output or, not
-  /// `lazy`, at once; `unsubscribe` when they no longer are. Both come from any thread, one at a time and in turn.
-  void advertise(ros::NodeHandle& private_node_handle, const std::string& name, bool lazy,
+  /// What was published for a cloud.
+  struct Messages
+  {
+    CylindricalShellArrayConstPtr shells;
+    HandleArrayConstPtr handles;
+    LocalizationStatisticsConstPtr statistics;
+  };
+
+  /// Advertises. `subscribe` is called when the inputs are needed: not `lazy`, at once; else while somebody listens to
+  /// an output or, `on_demand`, only while there is demand(). `unsubscribe` is called when they no longer are. Both
+  /// come from any thread, one at a time and in turn.
+  void advertise(ros::NodeHandle& private_node_handle, const std::string& name, bool lazy, bool on_demand,
                  std::function<void()> subscribe, std::function<void()> unsubscribe);
+
+  /// Whether the inputs are needed, whoever listens. From any thread.
+  void demand(bool needed);
 
   /// Unsubscribes for good. The outputs remain: a result may still be on its way.
   void close();
@@ -39,6 +54,9 @@ public:
   /// Counts a cloud that came in and hands it over; `hand_over` returns whether another one was dropped for it.
   /// From any thread.
   void receive(const std::function<bool()>& hand_over);
+
+  /// Counts a cloud that came in and is left out, for the rate or because nobody asked for it. From any thread.
+  void leaveOut();
 
   // The following come from one thread: the worker's.
 
@@ -48,10 +66,11 @@ public:
   /// Counts a cloud that a transform is missing for, and says which.
   void leaveUntransformed(const std::string& reason);
 
-  /// Counts and publishes a result, of its handles what is known of them after it. `arrival`: when its cloud came in.
-  /// `header`: of all outputs. `fixed_frame`: that handles are tracked in.
-  void publish(const Localization& localization, const Config& config, const std_msgs::Header& header,
-               Clock::time_point arrival, const FixedFrame& fixed_frame = FixedFrame());
+  /// Counts and publishes a result, of its handles what is known of them after it. `config`: of this cloud, the outputs'
+  /// own parameters among them. `arrival`: when its cloud came in. `header`: of all outputs. `fixed_frame`: that handles
+  /// are tracked in.
+  Messages publish(const Localization& localization, const Config& config, const std_msgs::Header& header,
+                   Clock::time_point arrival, const FixedFrame& fixed_frame = FixedFrame());
 
 private:
   bool anybodyListens() const;
@@ -59,11 +78,13 @@ private:
 
   std::string name_;
   bool lazy_ = true;
+  bool on_demand_ = false;
   std::function<void()> subscribe_;
   std::function<void()> unsubscribe_;
 
-  std::mutex connections_mutex_;  // guards the publishers, open_ and subscribed_
+  std::mutex connections_mutex_;  // guards the publishers, open_, demanded_ and subscribed_
   bool open_ = false;             // a connection that is under way at the end must not subscribe again
+  bool demanded_ = false;
   bool subscribed_ = false;
   ros::Publisher shells_;
   ros::Publisher handles_;
@@ -71,9 +92,10 @@ private:
   ros::Publisher markers_;
   ros::Publisher statistics_;
 
-  std::mutex counters_mutex_;  // guards received_ and dropped_, which are read and written together
+  std::mutex counters_mutex_;  // guards the following, which are read and written together
   std::uint64_t received_ = 0;
   std::uint64_t dropped_ = 0;
+  std::uint64_t left_out_ = 0;
 
   // Of the worker's thread.
   std::uint64_t processed_ = 0;

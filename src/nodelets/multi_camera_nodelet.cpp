@@ -1,3 +1,4 @@
+#include "grasp_affordances/RegionOfInterest.h"
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/localizer.h"
 #include "grasp_affordances/point_cloud2.h"
@@ -5,7 +6,11 @@
 #include "nodelets/cloud_synchronizer.h"
 #include "nodelets/localization_outputs.h"
 #include "nodelets/newest_only_worker.h"
+#include "nodelets/next_cloud.h"
 #include "nodelets/parameters_ros.h"
+#include "nodelets/rate_limiter.h"
+#include "nodelets/reconfiguration.h"
+#include "nodelets/region_of_interest.h"
 #include "nodelets/ros_time.h"
 #include "nodelets/throttle.h"
 #include "nodelets/transforms.h"
@@ -19,11 +24,13 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,17 +51,21 @@ constexpr double kSilence = 5.0;  // s of wall-clock time without clouds that be
 /// Subscribed: points_1, points_2, ... (sensor_msgs/PointCloud2), camera_info_1, ... (sensor_msgs/CameraInfo,
 /// optional); /tf and /tf_static, which must lead from the target frame to each cloud's at its stamp. Published, for
 /// every processed set, in the target frame and with the stamp of the newest cloud: see LocalizationOutputs.
+/// Services: see NextCloud (~trigger), whose cloud is a set of clouds here, and Reconfiguration.
 /// Parameters: see MultiCameraParameters.
 class MultiCameraNodelet : public nodelet::Nodelet
 {
 public:
   ~MultiCameraNodelet() override
   {
-    // In this order: no more clouds come in, then the last ones are finished while their publishers still exist.
+    // In this order: no more clouds come in, and nobody waits; services end; then the last clouds are finished while
+    // their publishers still exist.
     outputs_.close();
-    if (transforms_) {
+    if (transforms_) {  // it started
       transforms_->close();
     }
+    next_cloud_.close();
+    reconfiguration_.close();
     worker_.reset();
   }
 
@@ -85,10 +96,11 @@ private:
   void subscribe();
   void unsubscribe();
   void receive(std::size_t view, const Points& message);
+  void receive(const CloudSynchronizer::Set& clouds);
   void startAgain(const ros::Time& stamp);
   void complainOfSilence();
   void process(const Arrival& arrival);
-  void localize(const Arrival& arrival);
+  void localize(const Arrival& arrival, const std::optional<RegionOfInterest>& call);
   void convert(const sensor_msgs::PointCloud2& message, View& view);
 
   MultiCameraParameters parameters_;
@@ -102,11 +114,15 @@ private:
   std::unique_ptr<CloudSynchronizer> synchronizer_;
   bool any_set_ = false;  // since the timer's last call
   Throttle reported_jumps_;
+  std::optional<RateLimiter> rate_limiter_;
 
   // Of the worker's thread.
   std::unique_ptr<Localizer> localizer_;
   std::vector<PosedCloud> posed_clouds_;
   Localization localization_;
+
+  NextCloud next_cloud_;
+  Reconfiguration reconfiguration_;
 
   std::unique_ptr<NewestOnlyWorker<Arrival>> worker_;
 };
@@ -124,15 +140,17 @@ void MultiCameraNodelet::onInit()
   nameTopics();
   posed_clouds_.resize(parameters_.views);
   synchronizer_ = std::make_unique<CloudSynchronizer>(
-      parameters_.views, parameters_.sync_slop, [this](const CloudSynchronizer::Set& clouds) {
-        any_set_ = true;
-        outputs_.receive([&] { return worker_->put({clouds, LocalizationOutputs::Clock::now()}); });
-      });
+      parameters_.views, parameters_.sync_slop, [this](const CloudSynchronizer::Set& clouds) { receive(clouds); });
   clock_complaint_ = complainWithoutClock(getNodeHandle(), getName());
   transforms_ = std::make_unique<Transforms>(getNodeHandle());
+  transforms_->listen();
+  rate_limiter_.emplace(parameters_.node.max_rate);
+  reconfiguration_.advertise(private_nh, getName(), parameters_.node.config);
   worker_ = std::make_unique<NewestOnlyWorker<Arrival>>([this](const Arrival& arrival) { process(arrival); });
   outputs_.advertise(
-      private_nh, getName(), parameters_.node.lazy, [this] { subscribe(); }, [this] { unsubscribe(); });
+      private_nh, getName(), parameters_.node.lazy, parameters_.node.on_demand, [this] { subscribe(); },
+      [this] { unsubscribe(); });
+  next_cloud_.advertise(private_nh, "set of clouds", [this](bool needed) { outputs_.demand(needed); });
 }
 
 void MultiCameraNodelet::nameTopics()
@@ -182,6 +200,19 @@ void MultiCameraNodelet::receive(std::size_t view, const Points& message)
   synchronizer_->add(view, message);
 }
 
+void MultiCameraNodelet::receive(const CloudSynchronizer::Set& clouds)
+{
+  any_set_ = true;
+  const LocalizationOutputs::Clock::time_point now = LocalizationOutputs::Clock::now();
+  const bool asked = next_cloud_.arrives(now);
+  if (!asked && (parameters_.node.on_demand ||
+                 !rate_limiter_->passes(std::chrono::nanoseconds(now.time_since_epoch()).count()))) {
+    outputs_.leaveOut();
+    return;
+  }
+  outputs_.receive([&] { return worker_->put({clouds, now}); });
+}
+
 /// Once for all cameras: the first one whose time goes back speaks for the others.
 void MultiCameraNodelet::startAgain(const ros::Time& stamp)
 {
@@ -220,17 +251,25 @@ void MultiCameraNodelet::complainOfSilence()
 
 void MultiCameraNodelet::process(const Arrival& arrival)
 {
+  const std::optional<RegionOfInterest> call = next_cloud_.take(arrival.time);
   try {
-    localize(arrival);
+    localize(arrival, call);
   } catch (const tf2::TransformException& error) {
     outputs_.leaveUntransformed(error.what());
+    next_cloud_.fail(error.what());
   } catch (const std::exception& error) {  // CloudError, or no memory for what a cloud asks for
     outputs_.reject(error.what());
+    next_cloud_.fail(error.what());
   }
 }
 
-void MultiCameraNodelet::localize(const Arrival& arrival)
+void MultiCameraNodelet::localize(const Arrival& arrival, const std::optional<RegionOfInterest>& call)
 {
+  const RegionOfInterest region = call.value_or(RegionOfInterest());
+  Config config = withRegion(reconfiguration_.config(), region);
+  if (call) {
+    config.tracking.min_hits = 1;  // who asks once is answered at once
+  }
   const NodeParameters& parameters = parameters_.node;
   const Transforms::Deadline deadline = Transforms::after(parameters.transform_timeout);
   std_msgs::Header header;
@@ -246,11 +285,12 @@ void MultiCameraNodelet::localize(const Arrival& arrival)
     return frame.empty() ? Eigen::Isometry3d(Eigen::Isometry3d::Identity())
                          : transforms_->lookup(frame, header.frame_id, header.stamp, deadline);
   };
-  const Eigen::Isometry3d T_workspace_target = transform_to(parameters.workspace_frame);
+  const Eigen::Isometry3d T_workspace_target = transform_to(regionFrame(region, parameters.workspace_frame));
   const Eigen::Isometry3d T_approach_target = transform_to(parameters.approach_frame);
   const FixedFrame fixed_frame{parameters.fixed_frame, transform_to(parameters.fixed_frame)};
+  localizer_->configure(config);
   localizer_->localize(posed_clouds_, localization_, T_workspace_target, T_approach_target);
-  outputs_.publish(localization_, localizer_->config(), header, arrival.time, fixed_frame);
+  next_cloud_.answer(outputs_.publish(localization_, config, header, arrival.time, fixed_frame));
 }
 
 void MultiCameraNodelet::convert(const sensor_msgs::PointCloud2& message, View& view)

@@ -79,6 +79,12 @@ void ParameterReader::operator()(const std::string& name, std::string& field, co
   field = static_cast<const std::string&>(value);
 }
 
+void ParameterReader::passOver(const std::string& name)
+{
+  const char after_slash = '/' + 1;  // in the order of the map
+  parameters_.erase(parameters_.lower_bound(name + '/'), parameters_.lower_bound(name + after_slash));
+}
+
 void ParameterReader::refuseRemaining() const
 {
   if (!parameters_.empty()) {

@@ -71,6 +71,9 @@ public:
     field = enumFromWord<Enum>(name, word);
   }
 
+  /// Passes over all that lies below a name: it is not meant for the node.
+  void passOver(const std::string& name);
+
   /// @throw ParameterError where a parameter was not asked for: its name is unknown.
   void refuseRemaining() const;
 

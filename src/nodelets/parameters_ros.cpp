@@ -3,6 +3,7 @@
 #include "grasp_affordances/parameters.h"
 #include "nodelets/cloud_synchronizer.h"
 #include "nodelets/parameter_reader.h"
+#include "nodelets/reconfiguration.h"
 
 #include <string>
 
@@ -25,11 +26,14 @@ void readNodeParameters(ParameterReader& read, NodeParameters& result)
   result.config = presetConfig(preset);
   visitParameters(result.config, read);
   read("lazy", result.lazy, "");
+  read("on_demand", result.on_demand, "");
+  read("max_rate", result.max_rate, Range<double>{0.0, 120.0}, "Hz", "");
   readFrame("workspace_frame", read, result.workspace_frame);
   readFrame("target_frame", read, result.target_frame);
   readFrame("fixed_frame", read, result.fixed_frame);
   readFrame("approach_frame", read, result.approach_frame);
   read("transform_timeout", result.transform_timeout, Range<double>{0.0, 10.0}, "s", "");
+  read.passOver(Reconfiguration::kNamespace);
 }
 
 NodeParameters nodeParameters(ParameterReader read)

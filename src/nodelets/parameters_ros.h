@@ -16,6 +16,8 @@ struct NodeParameters
 {
   Config config;
   bool lazy = true;                ///< subscribe only while somebody listens to an output
+  bool on_demand = false;          ///< localize only in clouds that are asked for, see NextCloud
+  double max_rate = 0.0;           ///< Hz, of clouds that are localized in unasked; 0: as fast as they come
   std::string workspace_frame;     ///< of the box in `config`; empty: the frame of the cloud
   std::string target_frame;        ///< of the outputs; empty: the frame of the cloud
   std::string fixed_frame;         ///< in which handles stand still and are tracked; empty: that of the outputs
@@ -25,6 +27,7 @@ struct NodeParameters
 
 /// Reads the struct of a node's private parameters: `preset` names the base, the parameters of
 /// visitParameters() and those above overrule it. Every name must be known: the private namespace belongs to the node.
+/// Only what Reconfiguration has left there is passed over.
 /// @throw ParameterError with name, value and allowed values for an unknown name, a wrong type (see ParameterReader) or
 /// a value outside its range.
 NodeParameters nodeParameters(const XmlRpc::XmlRpcValue& parameters);

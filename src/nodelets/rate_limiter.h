@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace grasp_affordances
@@ -10,7 +11,10 @@ class RateLimiter
 {
 public:
   /// @param max_rate Hz; 0: everything passes
-  explicit RateLimiter(double max_rate) : period_ns_(max_rate > 0.0 ? static_cast<std::int64_t>(1e9 / max_rate) : 0) {}
+  explicit RateLimiter(double max_rate)
+      : period_ns_(max_rate > 0.0 ? static_cast<std::int64_t>(std::min(1e9 / max_rate, kLongest)) : 0)
+  {
+  }
 
   /// Whether what has this stamp, in ns, passes. Stamps that go back begin a new sequence.
   bool passes(std::int64_t stamp_ns)
@@ -25,6 +29,8 @@ public:
   }
 
 private:
+  static constexpr double kLongest = 1e18;  // ns
+
   std::int64_t period_ns_;
   std::int64_t due_ns_ = 0;
 };

@@ -1,8 +1,10 @@
 #include "nodelets/transforms.h"
 
 #include <ros/duration.h>
+#include <ros/init.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace grasp_affordances
@@ -12,6 +14,7 @@ namespace
 
 constexpr std::uint32_t kSubscriberQueue = 100;
 constexpr std::uint32_t kThreads = 1;
+constexpr std::chrono::milliseconds kShutdownPoll{50};  // nothing tells of the end of the node
 
 /// s by which the transforms of one frame may arrive out of order: several nodes may publish them. tf2 sorts them.
 constexpr double kDisorder = 0.5;
@@ -33,15 +36,21 @@ Eigen::Isometry3d isometry(geometry_msgs::TransformStamped transform)
 
 }  // namespace
 
-Transforms::Transforms(ros::NodeHandle& node_handle) : spinner_(kThreads, &queue_)
+Transforms::Transforms(const ros::NodeHandle& node_handle) : node_handle_(node_handle), spinner_(kThreads, &queue_) {}
+
+void Transforms::listen()
 {
+  const std::lock_guard<std::mutex> lock(listening_mutex_);
+  if (moving_) {
+    return;
+  }
   using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
   const auto subscribe = [&](const std::string& topic, bool fixed) {
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const Event&>(topic, kSubscriberQueue,
                                                  [this, fixed](const Event& event) { receive(event, fixed); });
     options.callback_queue = &queue_;
-    return node_handle.subscribe(options);
+    return node_handle_.subscribe(options);
   };
   moving_ = subscribe("/tf", false);
   fixed_ = subscribe("/tf_static", true);
@@ -56,9 +65,14 @@ Eigen::Isometry3d Transforms::lookup(const std::string& target_frame, const std:
   if (target == source) {
     return Eigen::Isometry3d::Identity();
   }
+  listen();
   std::unique_lock<std::mutex> lock(mutex_);
-  if (!source.empty()) {  // for which nobody needs to wait
-    changed_.wait_until(lock, deadline, [&] { return closed_ || buffer_.canTransform(target, source, stamp); });
+  while (!source.empty() && !buffer_.canTransform(target, source, stamp)) {  // for no source nobody needs to wait
+    const auto now = std::chrono::steady_clock::now();
+    if (closed_ || ros::isShuttingDown() || now >= deadline) {
+      break;
+    }
+    changed_.wait_until(lock, std::min<Deadline>(deadline, now + kShutdownPoll));
   }
   return isometry(buffer_.lookupTransform(target, source, stamp));
 }

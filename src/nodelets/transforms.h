@@ -40,12 +40,16 @@ public:
            std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
   }
 
-  /// Subscribes; names are remapped as those of the node handle.
-  explicit Transforms(ros::NodeHandle& node_handle);
+  /// Names are remapped as those of the node handle.
+  explicit Transforms(const ros::NodeHandle& node_handle);
+
+  /// Subscribes. Of what was published before, only the fixed transforms will be known.
+  void listen();
 
   /// The transform at the time of the stamp (zero: the latest), interpolated; of a frame to itself the identity. Waits
-  /// for it, by the wall clock.
-  /// @throw tf2::TransformException, with the reason, where it has not arrived by the deadline or close().
+  /// for it, by the wall clock. Between other frames the first call listens.
+  /// @throw tf2::TransformException, with the reason, where it has not arrived by the deadline, close() or the end of
+  /// the node.
   Eigen::Isometry3d lookup(const std::string& target_frame, const std::string& source_frame, const ros::Time& stamp,
                            Deadline deadline);
 
@@ -68,6 +72,8 @@ private:
   bool restarted_ = false;
   bool closed_ = false;
 
+  std::mutex listening_mutex_;  // guards the subscribers
+  ros::NodeHandle node_handle_;
   ros::CallbackQueue queue_;
   ros::Subscriber moving_;
   ros::Subscriber fixed_;

@@ -160,8 +160,8 @@ private:
     for (const std::string& warning : localization.warnings) {
       std::cerr << source.name() << ": " << warning << "\n";
     }
-    if (localization.shells.empty() && localization.sampled > 0) {
-      std::cerr << source.name() << ": " << explainNothing(localization) << "\n";
+    if (localization.handles.empty() && localization.sampled > 0) {  // else a warning says why
+      std::cerr << source.name() << ": " << explainNothing(localization, config) << "\n";
     }
     if (shows_progress_ && !position.empty()) {
       std::cerr << "[" << position << "] " << source.file << ": " << localization.shells.size() << " shells, "

@@ -478,7 +478,7 @@ TEST_F(OddClouds, withNothingToLocalizeSayWhyInOneLine)
   for (std::size_t i = 0; i < wall.size(); ++i) {
     wall[i] = {(i % 640 - 319.5F) / 525.0F, (i / 640 - 239.5F) / 525.0F, 1.0F};
   }
-  expectDone(write("wall.pcd", wall), "no shell: of 500 samples 500 ");
+  expectDone(write("wall.pcd", wall), "No handle: of 500 samples 500 ended ");
 }
 
 TEST_F(OddClouds, unmeasuredPointsChangeNothing)

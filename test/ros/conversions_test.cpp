@@ -75,7 +75,7 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   for (std::size_t outcome = 0; outcome < kOutcomes; ++outcome) {
     localization.counts[outcome] = 10 + static_cast<std::uint32_t>(outcome);
   }
-  localization.sampled = 145;
+  localization.sampled = 165;
   localization.points = 1000;
   localization.view_disagreement = 0.004;
   localization.threads = 3;
@@ -97,7 +97,7 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   EXPECT_EQ(message.threads, 3U);
   EXPECT_EQ(message.points, 1000U);
   EXPECT_EQ(message.view_disagreement, 0.004);
-  EXPECT_EQ(message.sampled, 145U);
+  EXPECT_EQ(message.sampled, 165U);
   EXPECT_EQ(message.too_few_points, 10U);
   EXPECT_EQ(message.degenerate, 11U);
   EXPECT_EQ(message.occluded, 12U);
@@ -107,7 +107,9 @@ TEST(StatisticsMessage, NamesEveryOutcome)
   EXPECT_EQ(message.too_short, 16U);
   EXPECT_EQ(message.unobserved_gap, 17U);
   EXPECT_EQ(message.uncovered, 18U);
-  EXPECT_EQ(message.shells, 19U);
+  EXPECT_EQ(message.out_of_time, 19U);
+  EXPECT_EQ(message.shells, 20U);
+  EXPECT_NE(message.explanation.find("of 165 samples 19"), std::string::npos) << message.explanation;
   EXPECT_EQ(message.milliseconds_total, 1.5);
   EXPECT_EQ(message.milliseconds_preparation, 0.1);
   EXPECT_EQ(message.milliseconds_neighborhoods, 0.2);

@@ -70,6 +70,28 @@ TEST(NodeParameters, Frames)
   EXPECT_TRUE(contains(refusal("", "transform_timeout", -0.1), "[0, 10] s"));
 }
 
+TEST(NodeParameters, OnDemand)
+{
+  EXPECT_FALSE(NodeParameters().on_demand);
+  EXPECT_EQ(NodeParameters().max_rate, 0.0);
+  XmlRpcValue parameters;
+  parameters["on_demand"] = true;
+  parameters["max_rate"] = 5;
+  const NodeParameters read = nodeParameters(parameters);
+  EXPECT_TRUE(read.on_demand);
+  EXPECT_EQ(read.max_rate, 5.0);
+  EXPECT_TRUE(contains(refusal("", "on_demand", 1), "true or false"));
+  EXPECT_TRUE(contains(refusal("", "max_rate", -1.0), "[0, 120] Hz"));
+}
+
+TEST(NodeParameters, PassOverWhatReconfigurationHasLeft)
+{
+  EXPECT_EQ(refusal("reconfigure", "hand_capture_radius", 0.03), "");
+  EXPECT_TRUE(contains(refusal("reconfigur", "hand_capture_radius", 0.03), "unknown name"));
+  EXPECT_TRUE(contains(refusal("reconfigured", "hand_capture_radius", 0.03), "unknown name"));
+  EXPECT_TRUE(contains(refusal("", "reconfigure", 0.03), "unknown name"));
+}
+
 TEST(MultiCameraParameters, AreThoseOfANodeAndItsCameras)
 {
   XmlRpcValue parameters;

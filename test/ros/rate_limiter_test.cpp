@@ -28,6 +28,7 @@ TEST(RateLimiter, KeepsTheRateOnAverage)
   EXPECT_NEAR(passed(RateLimiter(20.0)), 200, 1);
   EXPECT_NEAR(passed(RateLimiter(10.0)), 100, 1);
   EXPECT_NEAR(passed(RateLimiter(0.5)), 5, 1);
+  EXPECT_EQ(passed(RateLimiter(1e-12)), 1);
 }
 
 TEST(RateLimiter, StampsThatGoBackBeginAnew)

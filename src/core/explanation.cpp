@@ -1,0 +1,143 @@
+#include "grasp_affordances/config.h"
+#include "grasp_affordances/localization.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+std::uint32_t count(const Localization& localization, Outcome outcome)
+{
+  return localization.counts[static_cast<std::size_t>(outcome)];
+}
+
+/// Where most samples ended that are no shells.
+Outcome dominating(const Localization& localization)
+{
+  static_assert(static_cast<std::size_t>(Outcome::shell) + 1 == kOutcomes, "the shells come last");
+  const auto begin = localization.counts.begin();
+  return static_cast<Outcome>(std::max_element(begin, localization.counts.end() - 1) - begin);
+}
+
+std::string millimetres(double metres)
+{
+  std::ostringstream text;
+  text << metres * 1e3 << " mm";
+  return text.str();
+}
+
+/// Why the cloud gave no sample, as the warnings about it say, and where to look.
+std::string nothingSampled(const Localization& localization)
+{
+  const std::string mark = "nothing to localize: ";
+  std::string reasons;
+  for (std::string warning : localization.warnings) {
+    if (const std::size_t at = warning.find(mark); at != std::string::npos) {
+      reasons += (reasons.empty() ? "" : "; ") + warning.erase(at, mark.size());
+    }
+  }
+  if (reasons.empty()) {
+    return "there was no cloud to draw samples from";
+  }
+  const bool beyond_workspace = reasons.find("workspace") != std::string::npos;
+  return reasons + (beyond_workspace ? ": widen that box, workspace/min_x to workspace/max_z or the region of a call, or look at its frame"
+                                     : ": look at the sensor, its distance, and what publishes its cloud");
+}
+
+std::string tooFewShells(const Localization& localization, const Config& config)
+{
+  std::ostringstream text;
+  text << localization.shells.size() << (localization.shells.size() == 1 ? " shell was" : " shells were")
+       << " found, but not handles/min_support = " << config.handles.min_support
+       << " about one axis: draw more sampling/samples (" << config.sampling.samples
+       << ") or ask for a smaller support";
+  return text.str();
+}
+
+/// What it means that a sample ended there, and what to change.
+std::string meaning(Outcome outcome, const Config& config)
+{
+  const std::string capture_radius = millimetres(config.hand.capture_radius);
+  std::ostringstream text;
+  switch (outcome) {
+    case Outcome::too_few_points:
+      text << "with fewer neighbors than neighborhood/min_points = " << config.neighborhood.min_points
+           << ": the cloud is sparse for this hand, and a larger neighborhood/radius takes in more";
+      break;
+    case Outcome::degenerate:
+      text << "on exactly flat, straight or coincident points: measured clouds have noise, a synthetic one needs some";
+      break;
+    case Outcome::occluded:
+      text << "behind something nearer: move the camera, or raise occlusion/max_points_in_front ("
+           << config.occlusion.max_points_in_front << ")";
+      break;
+    case Outcome::low_curvature:
+      text << "on surfaces flatter than the hand's capture radius of " << capture_radius
+           << ": larger objects need a larger hand/capture_radius";
+      break;
+    case Outcome::concave:
+      text << "on hollow surfaces, as the inside of a cup: look from where things bulge towards the sensor, or switch "
+              "estimation/reject_concave off";
+      break;
+    case Outcome::no_shell:
+      text << "where no radius up to the hand's capture radius of " << capture_radius << " has a clear gap of "
+           << millimetres(config.hand.finger_thickness)
+           << ": things are too large for hand/capture_radius or too close for hand/finger_thickness";
+      break;
+    case Outcome::too_short:
+      text << "with a clear gap over less than " << millimetres(config.shell.min_length)
+           << " along the axis: shorter handles need a smaller shell/min_length";
+      break;
+    case Outcome::unobserved_gap:
+      text << "where the sensor saw through less than " << config.shell.min_observed_free
+           << " of the gap: look from another side, or lower shell/min_observed_free";
+      break;
+    case Outcome::uncovered:
+      text << "where surface shows in less than " << config.shell.min_coverage
+           << " of the silhouette, as along edges: lower shell/min_coverage for slivers and rims";
+      break;
+    case Outcome::out_of_time:
+      text << "before they were examined: raise sampling/time_budget_ms (" << config.sampling.time_budget_ms
+           << " ms) or draw fewer sampling/samples";
+      break;
+    case Outcome::shell:
+      break;
+  }
+  return text.str();
+}
+
+std::string whereSamplesEnded(const Localization& localization, const Config& config)
+{
+  const Outcome outcome = dominating(localization);
+  std::ostringstream text;
+  text << "of " << localization.sampled << " samples " << count(localization, outcome) << " ended "
+       << meaning(outcome, config) << " (" << outcomeName(outcome) << ")";
+  return text.str();
+}
+
+}  // namespace
+
+std::string explainNothing(const Localization& localization, const Config& config)
+{
+  if (!localization.handles.empty()) {
+    return "";
+  }
+  std::string reason;
+  const bool late = 2 * count(localization, Outcome::out_of_time) > localization.sampled;
+  if (localization.sampled == 0) {
+    reason = nothingSampled(localization);
+  } else if (!localization.shells.empty() && !late) {
+    reason = tooFewShells(localization, config);
+  } else {
+    reason = whereSamplesEnded(localization, config);
+  }
+  return "No handle: " + reason + ".";
+}
+
+}  // namespace grasp_affordances

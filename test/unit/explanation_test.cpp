@@ -1,0 +1,119 @@
+#include "grasp_affordances/localizer.h"
+#include "support/points.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances::test
+{
+namespace
+{
+
+/// A result whose samples ended there, and what is said of it.
+Localization endedIn(Outcome outcome, std::uint32_t count = 3900, std::uint32_t sampled = 4000)
+{
+  Localization result;
+  result.points = 200000;
+  result.sampled = sampled;
+  result.counts[static_cast<std::size_t>(outcome)] = count;
+  const Outcome other = outcome == Outcome::degenerate ? Outcome::concave : Outcome::degenerate;
+  result.counts[static_cast<std::size_t>(other)] += sampled - count;
+  return result;
+}
+
+/// One sentence that holds all these parts.
+void expectSentence(const std::string& text, const std::vector<std::string>& parts)
+{
+  EXPECT_EQ(text.rfind("No handle: ", 0), 0U) << text;
+  EXPECT_EQ(text.back(), '.') << text;
+  EXPECT_EQ(text.find(". "), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  for (const std::string& part : parts) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
+  }
+}
+
+TEST(Explanation, IsEmptyWhereThereIsAHandle)
+{
+  Localization result = endedIn(Outcome::low_curvature);
+  result.handles.resize(1);
+  EXPECT_EQ(explainNothing(result, Config()), "");
+}
+
+TEST(Explanation, NamesTheDominatingOutcomeAndItsParameter)
+{
+  Config config;
+  config.sampling.time_budget_ms = 5.0;
+  const std::pair<Outcome, std::vector<std::string>> cases[] = {
+      {Outcome::too_few_points, {"neighborhood/min_points = 10", "neighborhood/radius"}},
+      {Outcome::degenerate, {"flat", "noise"}},
+      {Outcome::occluded, {"occlusion/max_points_in_front (100)"}},
+      {Outcome::low_curvature, {"26 mm", "hand/capture_radius"}},
+      {Outcome::concave, {"estimation/reject_concave"}},
+      {Outcome::no_shell, {"26 mm", "8 mm", "hand/capture_radius", "hand/finger_thickness"}},
+      {Outcome::too_short, {"30 mm", "shell/min_length"}},
+      {Outcome::unobserved_gap, {"0.25", "shell/min_observed_free"}},
+      {Outcome::uncovered, {"0.7", "shell/min_coverage"}},
+      {Outcome::out_of_time, {"sampling/time_budget_ms (5 ms)", "sampling/samples"}}};
+  ASSERT_EQ(std::size(cases), kOutcomes - 1);
+  for (const auto& [outcome, parts] : cases) {
+    const std::string text = explainNothing(endedIn(outcome), config);
+    expectSentence(text, parts);
+    expectSentence(text, {"of 4000 samples 3900 ended", std::string("(") + outcomeName(outcome) + ")"});
+  }
+}
+
+TEST(Explanation, SaysThatShellsAreTooFewForAHandle)
+{
+  Localization result = endedIn(Outcome::low_curvature);
+  result.shells.resize(2);
+  expectSentence(explainNothing(result, Config()), {"2 shells were", "handles/min_support = 3", "sampling/samples"});
+  result.shells.resize(1);
+  expectSentence(explainNothing(result, Config()), {"1 shell was"});
+}
+
+TEST(Explanation, BlamesTheTimeBudgetEvenWhereShellsWereFound)
+{
+  Localization result = endedIn(Outcome::out_of_time);
+  result.shells.resize(2);
+  expectSentence(explainNothing(result, Config()), {"sampling/time_budget_ms"});
+  result = endedIn(Outcome::out_of_time, 1000);
+  result.shells.resize(2);
+  expectSentence(explainNothing(result, Config()), {"handles/min_support"});
+}
+
+/// Of clouds that give no sample.
+TEST(Explanation, SaysWhyNothingWasSampled)
+{
+  Localizer localizer;
+  const auto explained = [&](const Cloud& cloud) {
+    return explainNothing(localizer.localize(cloud), localizer.config());
+  };
+  Cloud cloud;
+  expectSentence(explained(cloud), {"the cloud is empty", "look at the sensor"});
+  cloud.reset(640, 480);
+  expectSentence(explained(cloud), {"all points are NaN, zero or infinite", "look at the sensor"});
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    cloud.set(i, 0.1F, 0.2F, 1.0F);
+  }
+  expectSentence(explained(cloud), {"coincide"});
+  Config config;
+  config.workspace.min_x = 50.0;
+  localizer.configure(config);
+  expectSentence(explained(captureScene("table", 1).cloud), {"within the workspace", "workspace/min_x"});
+  expectSentence(explainNothing(Localization(), config), {"no cloud"});
+}
+
+TEST(Explanation, OfAnEmptyTableIsItsFlatness)
+{
+  const Localization result = Localizer().localize(captureScene("empty_table", 1).cloud);
+  EXPECT_TRUE(result.handles.empty());
+  expectSentence(explainNothing(result, Config()), {"of 4000 samples", "hand/"});
+}
+
+}  // namespace
+}  // namespace grasp_affordances::test
