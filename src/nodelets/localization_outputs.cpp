@@ -48,6 +48,7 @@ void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const 
     hand_poses_ = private_node_handle.advertise<geometry_msgs::PoseArray>("hand_poses", 1, changed, changed);
     markers_ = private_node_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
     statistics_ = private_node_handle.advertise<LocalizationStatistics>("statistics", 1, changed, changed);
+    selection_.advertise(private_node_handle, name_, [this] { updateSubscriptions(); });
     open_ = true;
   }
   updateSubscriptions();
@@ -55,6 +56,7 @@ void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const 
 
 void LocalizationOutputs::close()
 {
+  selection_.close();
   {
     const std::lock_guard<std::mutex> lock(connections_mutex_);
     open_ = false;
@@ -66,7 +68,7 @@ bool LocalizationOutputs::anybodyListens() const
 {
   const auto heard = [](const ros::Publisher* publisher) { return publisher->getNumSubscribers() > 0; };
   const std::array<const ros::Publisher*, 5> all{&shells_, &handles_, &hand_poses_, &markers_, &statistics_};
-  return std::any_of(all.begin(), all.end(), heard);
+  return std::any_of(all.begin(), all.end(), heard) || selection_.anybodyListens();
 }
 
 void LocalizationOutputs::updateSubscriptions()
@@ -116,6 +118,7 @@ void LocalizationOutputs::publish(const Localization& localization, const Config
   }
   shells_.publish(boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header)));
   handles_.publish(boost::make_shared<HandleArray>(handlesMessage(localization.handles, header)));
+  selection_.update(localization.handles, config, header);
   hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(localization.handles, header)));
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
 

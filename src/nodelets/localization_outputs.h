@@ -2,6 +2,7 @@
 
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
+#include "nodelets/handle_selection.h"
 #include "nodelets/markers.h"
 #include "nodelets/throttle.h"
 
@@ -20,8 +21,8 @@ namespace grasp_affordances
 
 /// What localizing nodelets have in common: their outputs ~shells (CylindricalShellArray), ~handles (HandleArray),
 /// ~hand_poses (geometry_msgs/PoseArray), ~markers (visualization_msgs/MarkerArray) and ~statistics
-/// (LocalizationStatistics), whether anybody listens to them, and what became of the clouds. A nodelet with several
-/// cameras counts what it localizes as one, a set of clouds, as a cloud.
+/// (LocalizationStatistics), the selection of a handle (see HandleSelection), whether anybody listens to them, and what
+/// became of the clouds. A nodelet with several cameras counts what it localizes as one, a set of clouds, as a cloud.
 class LocalizationOutputs
 {
 public:
@@ -32,7 +33,7 @@ public:
   void advertise(ros::NodeHandle& private_node_handle, const std::string& name, bool lazy,
                  std::function<void()> subscribe, std::function<void()> unsubscribe);
 
-  /// Unsubscribes for good. The outputs remain: a result may still be on its way.
+  /// Unsubscribes for good, and answers no more calls. The outputs remain: a result may still be on its way.
   void close();
 
   /// Counts a cloud that came in and hands it over; `hand_over` returns whether another one was dropped for it.
@@ -68,6 +69,7 @@ private:
   ros::Publisher hand_poses_;
   ros::Publisher markers_;
   ros::Publisher statistics_;
+  HandleSelection selection_;
 
   std::mutex counters_mutex_;  // guards received_ and dropped_, which are read and written together
   std::uint64_t received_ = 0;
