@@ -18,7 +18,7 @@ GraspPose handAt(double angle, double along, double score)
 {
   GraspPose hand;
   hand.pose.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  hand.pose.translation() = {0.0, 0.0, along};
+  hand.pose.translation().z() = along;
   hand.score = score;
   return hand;
 }

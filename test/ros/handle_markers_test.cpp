@@ -135,7 +135,7 @@ TEST(HandleMarker, AHandClosesAroundTheHandle)
   const HandGeometry geometry;
   GraspPose hand;  // from the camera, along its z
   hand.pose.linear() << 0, 1, 0, 0, 0, 1, 1, 0, 0;
-  hand.pose.translation() = {0.1, 0.2, 0.8};
+  hand.pose.translation() << 0.1, 0.2, 0.8;
   hand.width = 0.05;
   const InteractiveMarker marker = drawn(bentHandle(), true, hand);
   const std::vector<Marker> boxes = ofType(marker, Marker::CUBE);
