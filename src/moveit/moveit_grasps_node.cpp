@@ -8,6 +8,7 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -54,10 +55,17 @@ private:
     response.error_code.val = moveit_msgs::MoveItErrorCodes::SUCCESS;
     if (response.grasps.empty()) {
       response.error_code.val = moveit_msgs::MoveItErrorCodes::FAILURE;
-      ROS_WARN_STREAM("no grasps: of " << handles.size() << (parameters_.only_selected ? " selected" : "")
-                                       << " handles none has a hand pose that the gripper opens far enough for");
+      ROS_WARN_STREAM("no grasps: " << whyNone(handles.size()));
     }
     return true;
+  }
+
+  std::string whyNone(std::size_t handles) const
+  {
+    if (handles > 0) {
+      return "no handle has a hand pose that the gripper opens far enough for";
+    }
+    return parameters_.only_selected ? "no handle is selected" : "no handle is known";
   }
 
   // Callbacks and calls come one at a time: ros::spin() has one thread.

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """plan_grasps_check.py MOVEIT_GRASPS: what that executable answers to plan_grasps."""
 
+import signal
 import subprocess
 import sys
 import unittest
@@ -36,7 +37,7 @@ class PlanGrasps(unittest.TestCase):
 
     def tearDown(self):
         if self.process:
-            self.process.terminate()
+            self.process.send_signal(signal.SIGINT)
             self.assertEqual(self.process.wait(20), 0)
         if rospy.has_param('moveit_grasps'):
             rospy.delete_param('moveit_grasps')
@@ -90,4 +91,4 @@ class PlanGrasps(unittest.TestCase):
 
 if __name__ == '__main__':
     rospy.init_node('plan_grasps_check')
-    unittest.main()
+    unittest.main(warnings='ignore')  # rospy leaves sockets to the garbage collector
