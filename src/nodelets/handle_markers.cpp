@@ -88,7 +88,8 @@ Marker label(std::uint32_t id, double distance)
   return marker;
 }
 
-InteractiveMarkerControl body(const GraspHandle& handle, const Eigen::Isometry3d& T_handle_header, bool selected)
+InteractiveMarkerControl body(const GraspHandle& handle, const Eigen::Isometry3d& T_handle_header, bool selected,
+                              double label_distance)
 {
   InteractiveMarkerControl control;
   control.name = "body";
@@ -103,7 +104,7 @@ InteractiveMarkerControl body(const GraspHandle& handle, const Eigen::Isometry3d
       control.markers.push_back(segment(from, to, radius, color));
     }
   }
-  control.markers.push_back(label(handle.id, radius + kLabelDistance));
+  control.markers.push_back(label(handle.id, radius + label_distance));
   return control;
 }
 
@@ -176,7 +177,9 @@ InteractiveMarker handleMarker(const GraspHandle& handle, const std_msgs::Header
   marker.name = handleMarkerName(handle.id);
   marker.pose = poseMessage(T_header_handle);
   marker.scale = static_cast<float>(rounded(handle.length, 0.01));
-  marker.controls.push_back(body(handle, T_handle_header, selected));
+  // Towards the sensor, and there in front of a hand.
+  const double label_distance = kLabelDistance + (hand ? geometry.palm_depth : 0.0);
+  marker.controls.push_back(body(handle, T_handle_header, selected, label_distance));
   if (hand) {
     marker.controls.push_back(gripper(rounded(T_handle_header * hand->pose), hand->width, geometry));
   }
