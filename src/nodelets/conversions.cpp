@@ -41,37 +41,6 @@ CylindricalShell shellMessage(const Shell& shell)
   return message;
 }
 
-Handle handleMessage(const GraspHandle& handle, const std_msgs::Header& header)
-{
-  Handle message;
-  message.header = header;
-  message.id = handle.id;
-  message.pose = poseMessage(handle.centroid, handle.axis, handle.normal);
-  message.centroid = xyzMessage<geometry_msgs::Point>(handle.centroid);
-  message.axis = xyzMessage<geometry_msgs::Vector3>(handle.axis);
-  message.normal = xyzMessage<geometry_msgs::Vector3>(handle.normal);
-  message.radius = handle.radius;
-  message.inner_radius = handle.inner_radius;
-  message.length = handle.length;
-  for (const Eigen::Vector3d& point : handle.polyline) {
-    message.polyline.push_back(xyzMessage<geometry_msgs::Point>(point));
-  }
-  message.shells = handle.shells;
-  message.score = handle.score;
-  message.clearance = handle.clearance;
-  message.observed_free = handle.observed_free;
-  for (const GraspPose& hand : handle.hand_poses) {
-    message.hand_poses.emplace_back();
-    message.hand_poses.back().pose = poseMessage(hand.pose);
-    message.hand_poses.back().width = hand.width;
-    message.hand_poses.back().observed_free = hand.observed_free;
-    message.hand_poses.back().score = hand.score;
-  }
-  message.hits = handle.hits;
-  message.unseen_for = handle.unseen_for;
-  return message;
-}
-
 std::string sizeText(std::uint32_t width, std::uint32_t height)
 {
   return std::to_string(width) + "x" + std::to_string(height);
@@ -102,6 +71,37 @@ geometry_msgs::Pose poseMessage(const Eigen::Isometry3d& pose)
   message.orientation.y = orientation.y();
   message.orientation.z = orientation.z();
   message.orientation.w = orientation.w();
+  return message;
+}
+
+Handle handleMessage(const GraspHandle& handle, const std_msgs::Header& header)
+{
+  Handle message;
+  message.header = header;
+  message.id = handle.id;
+  message.pose = poseMessage(handle.centroid, handle.axis, handle.normal);
+  message.centroid = xyzMessage<geometry_msgs::Point>(handle.centroid);
+  message.axis = xyzMessage<geometry_msgs::Vector3>(handle.axis);
+  message.normal = xyzMessage<geometry_msgs::Vector3>(handle.normal);
+  message.radius = handle.radius;
+  message.inner_radius = handle.inner_radius;
+  message.length = handle.length;
+  for (const Eigen::Vector3d& point : handle.polyline) {
+    message.polyline.push_back(xyzMessage<geometry_msgs::Point>(point));
+  }
+  message.shells = handle.shells;
+  message.score = handle.score;
+  message.clearance = handle.clearance;
+  message.observed_free = handle.observed_free;
+  for (const GraspPose& hand : handle.hand_poses) {
+    message.hand_poses.emplace_back();
+    message.hand_poses.back().pose = poseMessage(hand.pose);
+    message.hand_poses.back().width = hand.width;
+    message.hand_poses.back().observed_free = hand.observed_free;
+    message.hand_poses.back().score = hand.score;
+  }
+  message.hits = handle.hits;
+  message.unseen_for = handle.unseen_for;
   return message;
 }
 

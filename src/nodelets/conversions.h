@@ -29,6 +29,7 @@ geometry_msgs::Pose poseMessage(const Eigen::Vector3d& origin, const Eigen::Vect
                                 const Eigen::Vector3d& normal);
 geometry_msgs::Pose poseMessage(const Eigen::Isometry3d& pose);
 
+Handle handleMessage(const GraspHandle& handle, const std_msgs::Header& header);
 HandleArray handlesMessage(const std::vector<GraspHandle>& handles, const std_msgs::Header& header);
 
 /// The hand poses of all handles, one handle after the other.

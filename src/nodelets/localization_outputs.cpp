@@ -46,6 +46,7 @@ void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const 
     hand_poses_ = private_node_handle.advertise<geometry_msgs::PoseArray>("hand_poses", 1, changed, changed);
     markers_ = private_node_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
     statistics_ = private_node_handle.advertise<LocalizationStatistics>("statistics", 1, changed, changed);
+    selection_.advertise(private_node_handle, name_, [this] { updateSubscriptions(); });
     open_ = true;
   }
   updateSubscriptions();
@@ -53,6 +54,7 @@ void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const 
 
 void LocalizationOutputs::close()
 {
+  selection_.close();
   {
     const std::lock_guard<std::mutex> lock(connections_mutex_);
     open_ = false;
@@ -73,7 +75,7 @@ bool LocalizationOutputs::anybodyListens() const
 {
   const auto heard = [](const ros::Publisher* publisher) { return publisher->getNumSubscribers() > 0; };
   const std::array<const ros::Publisher*, 5> all{&shells_, &handles_, &hand_poses_, &markers_, &statistics_};
-  return std::any_of(all.begin(), all.end(), heard);
+  return std::any_of(all.begin(), all.end(), heard) || selection_.anybodyListens();
 }
 
 void LocalizationOutputs::updateSubscriptions()
@@ -135,6 +137,7 @@ LocalizationOutputs::Messages LocalizationOutputs::publish(const Localization& l
   const auto handles = boost::make_shared<HandleArray>(handlesMessage(known, header));
   shells_.publish(shells);
   handles_.publish(handles);
+  selection_.update(known, config, header);
   hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(known, header)));
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
 

@@ -5,6 +5,7 @@
 #include "grasp_affordances/LocalizationStatistics.h"
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
+#include "nodelets/handle_selection.h"
 #include "nodelets/handle_tracking.h"
 #include "nodelets/markers.h"
 #include "nodelets/throttle.h"
@@ -24,8 +25,8 @@ namespace grasp_affordances
 
 /// What localizing nodelets have in common: their outputs ~shells (CylindricalShellArray), ~handles (HandleArray),
 /// ~hand_poses (geometry_msgs/PoseArray), ~markers (visualization_msgs/MarkerArray) and ~statistics
-/// (LocalizationStatistics), whether anybody listens to them, and what became of the clouds. A nodelet with several
-/// cameras counts what it localizes as one, a set of clouds, as a cloud.
+/// (LocalizationStatistics), the selection of a handle (see HandleSelection), whether anybody listens to them, and what
+/// became of the clouds. A nodelet with several cameras counts what it localizes as one, a set of clouds, as a cloud.
 class LocalizationOutputs
 {
 public:
@@ -48,7 +49,7 @@ public:
   /// Whether the inputs are needed, whoever listens. From any thread.
   void demand(bool needed);
 
-  /// Unsubscribes for good. The outputs remain: a result may still be on its way.
+  /// Unsubscribes for good, and answers no more calls. The outputs remain: a result may still be on its way.
   void close();
 
   /// Counts a cloud that came in and hands it over; `hand_over` returns whether another one was dropped for it.
@@ -91,6 +92,7 @@ private:
   ros::Publisher hand_poses_;
   ros::Publisher markers_;
   ros::Publisher statistics_;
+  HandleSelection selection_;
 
   std::mutex counters_mutex_;  // guards the following, which are read and written together
   std::uint64_t received_ = 0;

@@ -11,6 +11,7 @@ import tempfile
 import threading
 import time
 
+import rosgraph
 import roslib.packages
 import rospy
 from sensor_msgs.msg import PointCloud2, PointField
@@ -146,6 +147,11 @@ def wait_until(condition, what, timeout=20):
         if time.monotonic() > end:
             raise AssertionError('%s: not within %g s' % (what, timeout))
         time.sleep(0.05)
+
+
+def others_subscribed_to(topic):
+    _, subscriptions, _ = rosgraph.Master(rospy.get_name()).getSystemState()
+    return {node for name, nodes in subscriptions if name == topic for node in nodes} - {rospy.get_name()}
 
 
 def cloud(width=8, height=6, frame='by_hand'):

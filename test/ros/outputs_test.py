@@ -5,7 +5,6 @@ import math
 import time
 import unittest
 
-import rosgraph
 import rospy
 import rostest
 from rosgraph_msgs.msg import Log
@@ -13,16 +12,11 @@ from sensor_msgs.msg import CameraInfo, PointCloud2, PointField
 from visualization_msgs.msg import Marker, MarkerArray
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
-from helpers import Listener, cloud, publisher, scene, wait_until
+from helpers import Listener, cloud, others_subscribed_to, publisher, scene, wait_until
 
 OUTPUTS = {'shells': CylindricalShellArray, 'markers': MarkerArray, 'statistics': LocalizationStatistics}
 OUTCOMES = ('too_few_points', 'degenerate', 'occluded', 'low_curvature', 'concave', 'no_shell', 'too_short',
             'unobserved_gap', 'uncovered', 'shells')
-
-
-def others_subscribed_to(topic):
-    _, subscriptions, _ = rosgraph.Master(rospy.get_name()).getSystemState()
-    return {node for name, nodes in subscriptions if name == topic for node in nodes} - {rospy.get_name()}
 
 
 def shown_after(arrays):
@@ -44,7 +38,8 @@ def norm(vector):
 
 class Outputs(unittest.TestCase):
     def setUp(self):
-        wait_until(lambda: len(rospy.get_published_topics('/localizer')) == len(OUTPUTS), 'advertisement')
+        wait_until(lambda: {'/localizer/' + name for name in OUTPUTS} <= {
+            topic for topic, _ in rospy.get_published_topics('/localizer')}, 'advertisement')
         self.listeners = {}
 
     def tearDown(self):

@@ -65,6 +65,8 @@ def check_launch(prefix, scratch):
         statistics = shell.answer('rostopic echo -n 1 /localizer/statistics')
         assert 'sampled: 4000' in statistics, statistics
         assert 'shells: 0' not in statistics, statistics
+        picked = shell.answer('rosrun grasp_affordances pick_best.py')
+        assert picked.startswith('handle '), picked
         launch.send_signal(signal.SIGINT)
         assert launch.wait(30) == 0
     finally:
