@@ -108,7 +108,8 @@ void LocalizationOutputs::leaveUntransformed(const std::string& reason)
 }
 
 void LocalizationOutputs::publish(const Localization& localization, const Config& config,
-                                  const std_msgs::Header& header, Clock::time_point arrival)
+                                  const std_msgs::Header& header, Clock::time_point arrival,
+                                  const std::string& workspace_frame)
 {
   ++processed_;
   if (!localization.warnings.empty() && warnings_.due()) {
@@ -117,7 +118,8 @@ void LocalizationOutputs::publish(const Localization& localization, const Config
   shells_.publish(boost::make_shared<CylindricalShellArray>(shellsMessage(localization, header)));
   handles_.publish(boost::make_shared<HandleArray>(handlesMessage(localization.handles, header)));
   hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(localization.handles, header)));
-  markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
+  markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(
+      localization_markers_.update(localization, config, header, workspace_frame)));
 
   auto statistics = boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, config, header));
   statistics->clouds_processed = processed_;

@@ -47,9 +47,10 @@ public:
   /// Counts a cloud that a transform is missing for, and says which.
   void leaveUntransformed(const std::string& reason);
 
-  /// Counts and publishes a result. `arrival`: when its cloud came in. `header`: of all outputs.
+  /// Counts and publishes a result. `arrival`: when its cloud came in. `header`: of all outputs. `workspace_frame`:
+  /// that the box of `config` is in.
   void publish(const Localization& localization, const Config& config, const std_msgs::Header& header,
-               Clock::time_point arrival);
+               Clock::time_point arrival, const std::string& workspace_frame);
 
 private:
   bool anybodyListens() const;
@@ -77,7 +78,7 @@ private:
   std::uint64_t processed_ = 0;
   std::uint64_t rejected_ = 0;
   std::uint64_t untransformed_ = 0;
-  ShellMarkers shell_markers_;
+  LocalizationMarkers localization_markers_;
   Throttle rejections_;
   Throttle missing_transforms_;
   Throttle warnings_;

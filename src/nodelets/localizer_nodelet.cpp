@@ -166,7 +166,9 @@ void LocalizerNodelet::localize(const Arrival& arrival)
     }
     header.frame_id = parameters_.target_frame;
   }
-  outputs_.publish(localization_, localizer_->config(), header, arrival.time);
+  outputs_.publish(
+      localization_, localizer_->config(), header, arrival.time,
+      parameters_.workspace_frame.empty() ? arrival.message->header.frame_id : parameters_.workspace_frame);
 }
 
 Eigen::Isometry3d LocalizerNodelet::transform(const std::string& frame, const std_msgs::Header& header,

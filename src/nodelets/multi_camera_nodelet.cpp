@@ -247,7 +247,8 @@ void MultiCameraNodelet::localize(const Arrival& arrival)
     T_workspace_target = transforms_->lookup(parameters.workspace_frame, header.frame_id, header.stamp, deadline);
   }
   localizer_->localize(posed_clouds_, localization_, T_workspace_target);
-  outputs_.publish(localization_, localizer_->config(), header, arrival.time);
+  outputs_.publish(localization_, localizer_->config(), header, arrival.time,
+                   parameters.workspace_frame.empty() ? header.frame_id : parameters.workspace_frame);
 }
 
 void MultiCameraNodelet::convert(const sensor_msgs::PointCloud2& message, View& view)

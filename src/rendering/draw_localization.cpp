@@ -76,30 +76,32 @@ Color lightened(const Color& color)
 
 /// Palm, finger and thumb of an open hand, as wide as the fingers are along the axis. The palm, which is in front of
 /// the handle where the hand comes from the sensor's side, is hardly filled.
-void drawHand(Picture& picture, const GraspPose& grasp, const HandGeometry& geometry, const Color& color)
+void drawHand(Picture& picture, const GraspPose& grasp, const Config& config, const Color& color)
 {
+  const HandGeometry& geometry = config.hand;
+  const Eigen::Isometry3d pose = poseOfHand(grasp, config.hand_poses);
   const double reach = 0.5 * grasp.width, thickness = geometry.finger_thickness, half_width = 0.5 * geometry.palm_width;
   BodyStyle style;
   style.color = lightened(color);
   style.line_width = 2.5;
   style.fill_opacity = 0.5;
   for (const double y : {-reach - thickness, reach}) {
-    picture.drawHull(box(grasp.pose, {-reach, y, -half_width}, {reach, y + thickness, half_width}), style);
+    picture.drawHull(box(pose, {-reach, y, -half_width}, {reach, y + thickness, half_width}), style);
   }
   style.fill_opacity = 0.12;
   picture.drawHull(
-      box(grasp.pose, {-reach - thickness, -reach - thickness, -half_width}, {-reach, reach + thickness, half_width}),
-      style);
+      box(pose, {-reach - thickness, -reach - thickness, -half_width}, {-reach, reach + thickness, half_width}), style);
 }
 
-void drawApproach(Picture& picture, const GraspPose& grasp, const Color& color)
+void drawApproach(Picture& picture, const GraspPose& grasp, const Config& config, const Color& color)
 {
   BodyStyle faint;
   faint.color = color;
   faint.line_opacity = 0.45;
   faint.line_width = 2.0;
-  const Eigen::Vector3d approach = grasp.pose.linear().col(0);
-  const Eigen::Vector3d end = grasp.pose.translation() - 0.5 * grasp.width * approach;
+  const Eigen::Isometry3d pose = poseOfHand(grasp, config.hand_poses);
+  const Eigen::Vector3d approach = pose.linear().col(0);
+  const Eigen::Vector3d end = pose.translation() - 0.5 * grasp.width * approach;
   picture.drawArrow(end - kArrowLength * approach, end, faint);
 }
 
@@ -112,7 +114,7 @@ void drawHandle(Picture& picture, const GraspHandle& handle)
 
 }  // namespace
 
-void drawLocalization(Picture& picture, const Localization& localization, const HandGeometry& hand)
+void drawLocalization(Picture& picture, const Localization& localization, const Config& config)
 {
   const std::vector<GraspHandle>& handles = localization.handles;
   const std::vector<Shell>& shells = localization.shells;
@@ -126,10 +128,10 @@ void drawLocalization(Picture& picture, const Localization& localization, const 
   for (const GraspHandle& handle : handles) {
     const auto& grasps = handle.hand_poses;
     for (std::size_t i = 1; i < grasps.size(); ++i) {
-      drawApproach(picture, grasps[i], colorOf(handle));
+      drawApproach(picture, grasps[i], config, colorOf(handle));
     }
     if (!grasps.empty()) {
-      drawHand(picture, grasps.front(), hand, colorOf(handle));
+      drawHand(picture, grasps.front(), config, colorOf(handle));
     }
   }
   for (const GraspHandle& handle : handles) {

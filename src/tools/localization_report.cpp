@@ -68,12 +68,13 @@ Json shellJson(const Shell& shell)
   return json;
 }
 
-Json handPoseJson(const GraspPose& hand)
+Json handPoseJson(const GraspPose& hand, const HandPosesConfig& config)
 {
+  const Eigen::Matrix3d orientation = poseOfHand(hand, config).linear();
   Json json;
   json["position"] = vectorJson(hand.pose.translation());
-  json["approach"] = vectorJson(hand.pose.linear().col(0));
-  json["axis"] = vectorJson(hand.pose.linear().col(2));
+  json["approach"] = vectorJson(orientation.col(0));
+  json["axis"] = vectorJson(orientation.col(2));
   json["quaternion"] = quaternionJson(Eigen::Quaterniond(hand.pose.linear()).normalized());
   json["width"] = hand.width;
   json["observed_free"] = hand.observed_free;
@@ -81,7 +82,7 @@ Json handPoseJson(const GraspPose& hand)
   return json;
 }
 
-Json handleJson(const GraspHandle& handle)
+Json handleJson(const GraspHandle& handle, const HandPosesConfig& config)
 {
   Json json;
   json["id"] = handle.id;
@@ -101,7 +102,7 @@ Json handleJson(const GraspHandle& handle)
   json["observed_free"] = handle.observed_free;
   json["hand_poses"] = Json::array();
   for (const GraspPose& hand : handle.hand_poses) {
-    json["hand_poses"].push_back(handPoseJson(hand));
+    json["hand_poses"].push_back(handPoseJson(hand, config));
   }
   return json;
 }
@@ -150,7 +151,7 @@ std::string toJson(const CloudSource& source, const Config& config, const Locali
   }
   json["handles"] = Json::array();
   for (const GraspHandle& handle : localization.handles) {
-    json["handles"].push_back(handleJson(handle));
+    json["handles"].push_back(handleJson(handle, config.hand_poses));
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // file names need not be UTF-8
 }

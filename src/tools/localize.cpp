@@ -188,7 +188,7 @@ private:
 
   void finish(Picture& picture, const CloudSource& source, const Localization& localization)
   {
-    drawLocalization(picture, localization, options_.config.hand);
+    drawLocalization(picture, localization, options_.config);
     const std::string others =
         source.views.size() > 1 ? " and " + std::to_string(source.views.size() - 1) + " more" : "";
     picture.drawCaption(std::filesystem::path(source.file).filename().string() + others + ":  " +

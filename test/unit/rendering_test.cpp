@@ -232,11 +232,15 @@ TEST_F(RenderingTest, drawsEachHandleInItsColorWithItsHand)
   localization.handles = {makeHandle(1, 0.1), makeHandle(2, -0.2)};
   localization.shells.push_back(makeShell());
   localization.handles.front().shells = {0};
-  HandGeometry hand;
-  hand.finger_thickness = 0.02;
-  hand.palm_width = 0.06;
+  Config config;
+  config.hand.finger_thickness = 0.02;
+  config.hand.palm_width = 0.06;
+  config.hand_poses.tool_x = 0.2;  // the hand is drawn, not its tool
+  for (GraspHandle& handle : localization.handles) {
+    handle.hand_poses.front().pose.translate(Eigen::Vector3d(0.2, 0.0, 0.0));
+  }
   Picture picture(makeWall());
-  drawLocalization(picture, localization, hand);
+  drawLocalization(picture, localization, config);
   picture.drawCaption("2 handles");
   const Image image = saved(picture);
   const auto at = [&](double x, double y, double z) { return image.at(*picture.project({x, y, z})); };
@@ -303,7 +307,7 @@ TEST_F(RenderingTest, leavesOutShellsBehindTheCameraAndDrawsCloudsWithoutPoints)
     localization.handles = {makeHandle(1, 0.0)};
     localization.handles.front().polyline = {{0.0, 0.0, 0.01}, {0.0, 0.0, -0.1}};
     localization.handles.front().hand_poses.front().pose.translation().z() = -0.1;
-    drawLocalization(picture, localization, HandGeometry());
+    drawLocalization(picture, localization, Config());
     const Image image = saved(picture);
     EXPECT_GT(image.width(), 0);
     EXPECT_LT(std::abs(redness(image.at({0.5 * image.width(), 0.5 * image.height()}))), 0.05);
