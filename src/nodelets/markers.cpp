@@ -80,12 +80,14 @@ Marker cylinder(const std_msgs::Header& header, const char* ns, std::size_t inde
   return cylinder;
 }
 
+/// The more shells there are in one place, the fainter is each, and a dark color does not shine through the others': a
+/// viewer that rounds each one's share up would show hundreds as one bright body.
 /// @param neighbors  shells of the same handle; 0: of none
 Marker shellMarker(const std_msgs::Header& header, std::size_t index, const Shell& shell, std::size_t neighbors)
 {
   Marker marker = cylinder(header, "shells", index, shell, 2.0 * shell.inner_radius, shell.length);
-  const double opacity = neighbors > 0 ? std::clamp(0.5 / static_cast<double>(neighbors), 0.004, 0.05) : 0.12;
-  marker.color = color(0.5, 0.7, 0.9, opacity);
+  marker.color = neighbors > 0 ? color(0.15, 0.2, 0.3, std::clamp(0.2 / static_cast<double>(neighbors), 0.002, 0.05))
+                               : color(0.5, 0.7, 0.9, 0.12);
   return marker;
 }
 
