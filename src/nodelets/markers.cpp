@@ -29,7 +29,8 @@ constexpr double kHandLineWidth = 0.003;  // m
 constexpr double kBoxLineWidth = 0.004;   // m
 constexpr double kOpenSide = 3.0;         // m, at which a side of the workspace without a limit is drawn
 constexpr int kTubeSides = 16;
-constexpr int kDeletions = 100;  // arrays that delete a marker
+constexpr std::size_t kMostHandPoses = 8;  // of a handle that are drawn
+constexpr int kDeletions = 100;            // arrays that delete a marker
 
 std_msgs::ColorRGBA color(double r, double g, double b, double a)
 {
@@ -192,7 +193,7 @@ Marker handsMarker(const std_msgs::Header& header, const GraspHandle& handle, co
       grasp_affordances::marker(header, "hand_poses", static_cast<std::int32_t>(handle.id), Marker::LINE_LIST);
   marker.scale.x = kHandLineWidth;
   marker.color = color(1.0, 1.0, 1.0, 1.0);
-  for (std::size_t i = handle.hand_poses.size(); i-- > 0;) {
+  for (std::size_t i = std::min(handle.hand_poses.size(), kMostHandPoses); i-- > 0;) {
     addHand(marker, handle.hand_poses[i], config, i == 0 ? color(0.5, 0.8, 1.0, 1.0) : color(0.2, 0.3, 0.5, 1.0));
   }
   return marker;

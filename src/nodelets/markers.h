@@ -19,7 +19,7 @@ namespace grasp_affordances
 /// - axes: its axis; the same id. Both are faint where the shell is of a handle
 /// - handles: a tube per handle along its axis, of its surface's radius, coloured by scoreColor(); id: the handle's
 /// - handle_ids: that id as a text beside it; the same id
-/// - hand_poses: the open hands of a handle, finger, thumb and wrist as lines, the best one bright; the same id
+/// - hand_poses: a handle's eight best open hands, finger, thumb and palm as lines, the best one bright; the same id
 /// - workspace: the box that samples are drawn in, where it is a limit; id 0
 /// Markers live until they are replaced or deleted. Of one thread.
 class LocalizationMarkers

@@ -19,7 +19,8 @@ constexpr std::array<Color, 6> kPalette{{{1.00F, 0.62F, 0.05F},
                                          {0.70F, 0.55F, 1.00F},
                                          {1.00F, 0.95F, 0.30F}}};
 constexpr Color kOfNoHandle{0.75F, 0.75F, 0.75F};
-constexpr double kArrowLength = 0.03;  // m
+constexpr double kArrowLength = 0.03;      // m
+constexpr std::size_t kMostHandPoses = 8;  // of a handle that are drawn
 
 Color colorOf(const GraspHandle& handle)
 {
@@ -127,7 +128,7 @@ void drawLocalization(Picture& picture, const Localization& localization, const 
   }
   for (const GraspHandle& handle : handles) {
     const auto& grasps = handle.hand_poses;
-    for (std::size_t i = 1; i < grasps.size(); ++i) {
+    for (std::size_t i = 1; i < std::min(grasps.size(), kMostHandPoses); ++i) {
       drawApproach(picture, grasps[i], config, colorOf(handle));
     }
     if (!grasps.empty()) {

@@ -88,7 +88,7 @@ private:
 };
 
 /// Draws handles, each in a color of its own: a bold tube along its axis with its id beside it, its best hand pose as a
-/// gripper, other poses as faint arrows along their approach, and its shells, faint. Shells of no handle are grey.
+/// gripper, the next seven as faint arrows along their approach, and its shells, faint. Shells of no handle are grey.
 void drawLocalization(Picture& picture, const Localization& localization, const Config& config);
 
 }  // namespace grasp_affordances
