@@ -119,7 +119,7 @@ void LocalizationOutputs::publish(const Localization& localization, const Config
   handles_.publish(boost::make_shared<HandleArray>(handlesMessage(localization.handles, header)));
   hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(localization.handles, header)));
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(
-      localization_markers_.update(localization, config, header, workspace_frame)));
+      localization_markers_.update(localization.shells, localization.handles, config, header, workspace_frame)));
 
   auto statistics = boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, config, header));
   statistics->clouds_processed = processed_;

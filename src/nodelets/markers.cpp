@@ -234,10 +234,10 @@ Marker workspaceMarker(const std_msgs::Header& header, const WorkspaceConfig& bo
 }
 
 /// Of each shell how many its handle has, itself included; 0 where it is of none.
-std::vector<std::size_t> shellsOfItsHandle(const Localization& localization)
+std::vector<std::size_t> shellsOfItsHandle(std::size_t shells, const std::vector<GraspHandle>& handles)
 {
-  std::vector<std::size_t> counts(localization.shells.size(), 0);
-  for (const GraspHandle& handle : localization.handles) {
+  std::vector<std::size_t> counts(shells, 0);
+  for (const GraspHandle& handle : handles) {
     for (const std::uint32_t i : handle.shells) {
       counts[i] = handle.shells.size();
     }
@@ -247,8 +247,9 @@ std::vector<std::size_t> shellsOfItsHandle(const Localization& localization)
 
 }  // namespace
 
-visualization_msgs::MarkerArray LocalizationMarkers::update(const Localization& localization, const Config& config,
-                                                            const std_msgs::Header& header,
+visualization_msgs::MarkerArray LocalizationMarkers::update(const std::vector<Shell>& shells,
+                                                            const std::vector<GraspHandle>& handles,
+                                                            const Config& config, const std_msgs::Header& header,
                                                             const std::string& workspace_frame)
 {
   visualization_msgs::MarkerArray array;
@@ -256,12 +257,12 @@ visualization_msgs::MarkerArray LocalizationMarkers::update(const Localization& 
     array.markers.push_back(removal(header, "", 0, Marker::DELETEALL));
     first_ = false;
   }
-  const std::vector<std::size_t> neighbors = shellsOfItsHandle(localization);
-  for (std::size_t i = 0; i < localization.shells.size(); ++i) {
-    array.markers.push_back(shellMarker(header, i, localization.shells[i], neighbors[i]));
-    array.markers.push_back(axisMarker(header, i, localization.shells[i], neighbors[i] > 0));
+  const std::vector<std::size_t> neighbors = shellsOfItsHandle(shells.size(), handles);
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    array.markers.push_back(shellMarker(header, i, shells[i], neighbors[i]));
+    array.markers.push_back(axisMarker(header, i, shells[i], neighbors[i] > 0));
   }
-  for (const GraspHandle& handle : localization.handles) {
+  for (const GraspHandle& handle : handles) {
     if (handle.polyline.size() > 1) {
       array.markers.push_back(handleMarker(header, handle));
     }

@@ -10,11 +10,12 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace grasp_affordances
 {
 
-/// Draws localizations for rviz, in these namespaces:
+/// Draws shells and handles for rviz, in these namespaces:
 /// - shells: a translucent cylinder per shell, of its inner radius and length; id: index of the shell
 /// - axes: its axis; the same id. Both are faint where the shell is of a handle
 /// - handles: a tube per handle along its axis, of its surface's radius, coloured by scoreColor(); id: the handle's
@@ -25,13 +26,16 @@ namespace grasp_affordances
 class LocalizationMarkers
 {
 public:
-  /// Markers of the localization, and deletions of what is not shown any more, here and in the next 100 arrays: a
+  /// Markers of a result, and deletions of what is not shown any more, here and in the next 100 arrays: a
   /// viewer that missed some arrays shows no stale marker after the next one. The first call also deletes whatever an
   /// earlier publisher left behind.
-  /// @param header  of the localization
+  /// @param shells  of one cloud
+  /// @param handles  found in it, with indices into its shells, or tracked up to it
+  /// @param header  of both
   /// @param workspace_frame  that the box of config.workspace is in
-  visualization_msgs::MarkerArray update(const Localization& localization, const Config& config,
-                                         const std_msgs::Header& header, const std::string& workspace_frame);
+  visualization_msgs::MarkerArray update(const std::vector<Shell>& shells, const std::vector<GraspHandle>& handles,
+                                         const Config& config, const std_msgs::Header& header,
+                                         const std::string& workspace_frame);
 
 private:
   void deleteSurplus(visualization_msgs::MarkerArray& array, const std_msgs::Header& header);

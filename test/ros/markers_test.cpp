@@ -88,7 +88,7 @@ GraspHandle makeHandle(std::uint32_t id)
 
 MarkerArray update(LocalizationMarkers& markers, const Localization& localization)
 {
-  return markers.update(localization, Config(), makeHeader(), "base");
+  return markers.update(localization.shells, localization.handles, Config(), makeHeader(), "base");
 }
 
 TEST(LocalizationMarkers, AViewerShowsTheLatestResultAndNothingElse)
@@ -232,7 +232,7 @@ TEST(LocalizationMarkers, AHandIsDrawnWhereItIsAndNotItsTool)
   localization.handles = {handle};
   LocalizationMarkers markers;
   Viewer viewer;
-  viewer.receive(markers.update(localization, config, makeHeader(), "base"));
+  viewer.receive(markers.update(localization.shells, localization.handles, config, makeHeader(), "base"));
   const Marker& hands = viewer.at("hand_poses", 1);
   EXPECT_EQ(hands.type, Marker::LINE_LIST);
   ASSERT_EQ(hands.points.size(), hands.colors.size());
@@ -256,7 +256,7 @@ TEST(LocalizationMarkers, TheWorkspaceIsDrawnInItsFrameWhereItIsALimit)
   config.workspace.min_x = 0.2;
   config.workspace.max_x = 0.8;
   config.workspace.max_z = 1.5;
-  viewer.receive(markers.update(Localization(), config, makeHeader(), "base"));
+  viewer.receive(markers.update({}, {}, config, makeHeader(), "base"));
   const Marker& box = viewer.at("workspace", 0);
   EXPECT_EQ(box.header.frame_id, "base");
   EXPECT_EQ(box.points.size(), 24U) << "twelve edges";
@@ -270,7 +270,7 @@ TEST(LocalizationMarkers, TheWorkspaceIsDrawnInItsFrameWhereItIsALimit)
   EXPECT_EQ(y.size(), 2U);
   EXPECT_EQ(*z.rbegin(), 1.5);
   EXPECT_LE(*z.begin(), 0.0);
-  viewer.receive(markers.update(Localization(), Config(), makeHeader(), "base"));
+  viewer.receive(markers.update({}, {}, Config(), makeHeader(), "base"));
   EXPECT_TRUE(viewer.shown().empty()) << "deleted when there is no limit any more";
 }
 
