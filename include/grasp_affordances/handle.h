@@ -1,5 +1,7 @@
 #pragma once
 
+#include "grasp_affordances/config.h"
+
 #include <Eigen/Geometry>
 
 #include <cstdint>
@@ -52,5 +54,8 @@ struct GraspHandle
 
 /// The handle in the frame that T leads to.
 void transform(const Eigen::Isometry3d& T, GraspHandle& handle);
+
+/// The pose of the hand itself, in the frame of the grasp's pose, which is that of the tool that `config` gives.
+Eigen::Isometry3d poseOfHand(const GraspPose& grasp, const HandPosesConfig& config);
 
 }  // namespace grasp_affordances

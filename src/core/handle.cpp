@@ -18,4 +18,13 @@ void transform(const Eigen::Isometry3d& T, GraspHandle& handle)
   }
 }
 
+Eigen::Isometry3d poseOfHand(const GraspPose& grasp, const HandPosesConfig& config)
+{
+  const Eigen::Isometry3d T_hand_tool = Eigen::Translation3d(config.tool_x, config.tool_y, config.tool_z) *
+                                        Eigen::AngleAxisd(config.tool_yaw, Eigen::Vector3d::UnitZ()) *
+                                        Eigen::AngleAxisd(config.tool_pitch, Eigen::Vector3d::UnitY()) *
+                                        Eigen::AngleAxisd(config.tool_roll, Eigen::Vector3d::UnitX());
+  return grasp.pose * T_hand_tool.inverse();
+}
+
 }  // namespace grasp_affordances

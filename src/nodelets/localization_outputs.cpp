@@ -125,6 +125,7 @@ void LocalizationOutputs::leaveUntransformed(const std::string& reason)
 
 LocalizationOutputs::Messages LocalizationOutputs::publish(const Localization& localization, const Config& config,
                                                            const std_msgs::Header& header, Clock::time_point arrival,
+                                                           const std::string& workspace_frame,
                                                            const FixedFrame& fixed_frame)
 {
   ++processed_;
@@ -139,7 +140,8 @@ LocalizationOutputs::Messages LocalizationOutputs::publish(const Localization& l
   handles_.publish(handles);
   selection_.update(known, config, header);
   hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(known, header)));
-  markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(shell_markers_.update(localization, header)));
+  markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(
+      localization_markers_.update(localization.shells, known, config, header, workspace_frame)));
 
   auto statistics = boost::make_shared<LocalizationStatistics>(statisticsMessage(localization, config, header));
   statistics->clouds_processed = processed_;

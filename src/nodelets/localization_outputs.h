@@ -68,10 +68,11 @@ public:
   void leaveUntransformed(const std::string& reason);
 
   /// Counts and publishes a result, of its handles what is known of them after it. `config`: of this cloud, the outputs'
-  /// own parameters among them. `arrival`: when its cloud came in. `header`: of all outputs. `fixed_frame`: that handles
-  /// are tracked in.
+  /// own parameters among them. `arrival`: when its cloud came in. `header`: of all outputs. `workspace_frame`: that the
+  /// box of `config` is in. `fixed_frame`: that handles are tracked in.
   Messages publish(const Localization& localization, const Config& config, const std_msgs::Header& header,
-                   Clock::time_point arrival, const FixedFrame& fixed_frame = FixedFrame());
+                   Clock::time_point arrival, const std::string& workspace_frame,
+                   const FixedFrame& fixed_frame = FixedFrame());
 
 private:
   bool anybodyListens() const;
@@ -104,7 +105,7 @@ private:
   std::uint64_t rejected_ = 0;
   std::uint64_t untransformed_ = 0;
   HandleTracking handle_tracking_;
-  ShellMarkers shell_markers_;
+  LocalizationMarkers localization_markers_;
   Throttle rejections_;
   Throttle missing_transforms_;
   Throttle warnings_;

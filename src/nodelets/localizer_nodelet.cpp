@@ -235,7 +235,10 @@ void LocalizerNodelet::localize(const Arrival& arrival, const std::optional<Regi
   const std_msgs::Header header = localize(arrival.message->header, config, region, *own_place_);
   const FixedFrame fixed_frame{parameters_.fixed_frame, transform(parameters_.fixed_frame, header,
                                                                   Transforms::after(parameters_.transform_timeout))};
-  next_cloud_.answer(outputs_.publish(own_place_->localization, config, header, arrival.time, fixed_frame));
+  const std::string workspace_frame = regionFrame(region, parameters_.workspace_frame);
+  next_cloud_.answer(outputs_.publish(own_place_->localization, config, header, arrival.time,
+                                      workspace_frame.empty() ? arrival.message->header.frame_id : workspace_frame,
+                                      fixed_frame));
 }
 
 void LocalizerNodelet::answer(const Localize::Request& request, Localize::Response& response)

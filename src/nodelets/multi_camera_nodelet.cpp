@@ -285,12 +285,14 @@ void MultiCameraNodelet::localize(const Arrival& arrival, const std::optional<Re
     return frame.empty() ? Eigen::Isometry3d(Eigen::Isometry3d::Identity())
                          : transforms_->lookup(frame, header.frame_id, header.stamp, deadline);
   };
-  const Eigen::Isometry3d T_workspace_target = transform_to(regionFrame(region, parameters.workspace_frame));
+  const std::string workspace_frame = regionFrame(region, parameters.workspace_frame);
+  const Eigen::Isometry3d T_workspace_target = transform_to(workspace_frame);
   const Eigen::Isometry3d T_approach_target = transform_to(parameters.approach_frame);
   const FixedFrame fixed_frame{parameters.fixed_frame, transform_to(parameters.fixed_frame)};
   localizer_->configure(config);
   localizer_->localize(posed_clouds_, localization_, T_workspace_target, T_approach_target);
-  next_cloud_.answer(outputs_.publish(localization_, config, header, arrival.time, fixed_frame));
+  next_cloud_.answer(outputs_.publish(localization_, config, header, arrival.time,
+                                      workspace_frame.empty() ? header.frame_id : workspace_frame, fixed_frame));
 }
 
 void MultiCameraNodelet::convert(const sensor_msgs::PointCloud2& message, View& view)

@@ -1,6 +1,7 @@
 #include "rendering/picture.h"
 
-#include "rendering/shaded_cloud.h"
+#include "rendering/canvas.h"
+#include "rendering/label_place.h"
 
 #include <cairo.h>
 
@@ -20,63 +21,41 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kLongSide = 1280;      // pixels that the longer side of a picture has about
-constexpr double kFarOutside = 1e5;  // camera pixels from the first one that cairo need not be asked to draw
 constexpr int kRingSegments = 48;
-constexpr double kHidden = 0.35;       // opacity of what lies behind measured points, relative to what does not
-constexpr double kHiddenDepth = 0.01;  // m behind a point at which a line counts as hidden
+constexpr double kArrowHead = 14.0;      // pixels
+constexpr double kLabelSize = 40.0;      // pixels, of the font
+constexpr double kCaptionHeight = 38.0;  // pixels
+constexpr Color kWhite{1.0F, 1.0F, 1.0F};
+constexpr Color kBlack{0.0F, 0.0F, 0.0F};
 
-using Polyline = std::vector<Eigen::Vector3d>;
-using Polygon = std::vector<Eigen::Vector2d>;
-
-struct CairoDeleter
+/// @param normal  unit, at right angles to the axis, which is of unit length, too
+Polyline ring(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, const Eigen::Vector3d& normal, double radius)
 {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, CairoDeleter>;
-using Context = std::unique_ptr<cairo_t, CairoDeleter>;
-
-Surface createSurface(int width, int height)
-{
-  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
-  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(std::string("no picture of this size: ") +
-                             cairo_status_to_string(cairo_surface_status(surface.get())));
+  const Eigen::Vector3d third = axis.cross(normal);
+  Polyline points;
+  for (int i = 0; i <= kRingSegments; ++i) {
+    const double angle = 2.0 * kPi * i / kRingSegments;
+    points.push_back(center + radius * (std::cos(angle) * normal + std::sin(angle) * third));
   }
-  return surface;
-}
-
-Surface imageSurface(const std::vector<Color>& pixels, int width, int height)
-{
-  Surface surface = createSurface(width, height);
-  const auto component = [](float value) {
-    return static_cast<std::uint32_t>(std::lround(255.0F * std::clamp(value, 0.0F, 1.0F)));
-  };
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  for (int row = 0; row < height; ++row) {
-    unsigned char* line = cairo_image_surface_get_data(surface.get()) + row * stride;
-    for (int column = 0; column < width; ++column) {
-      const Color& color = pixels[static_cast<std::size_t>(row) * width + column];
-      const std::uint32_t rgb = component(color.r) << 16 | component(color.g) << 8 | component(color.b);
-      std::memcpy(line + 4 * column, &rgb, sizeof(rgb));
-    }
-  }
-  cairo_surface_mark_dirty(surface.get());
-  return surface;
+  return points;
 }
 
 /// Two end rings of a cylinder around a shell's axis.
 std::array<Polyline, 2> endRings(const Shell& shell, double radius)
 {
-  const Eigen::Vector3d third = shell.axis.cross(shell.normal);
-  std::array<Polyline, 2> rings;
-  for (int end = 0; end < 2; ++end) {
-    const Eigen::Vector3d center = shell.centroid + (end - 0.5) * shell.length * shell.axis;
-    for (int i = 0; i <= kRingSegments; ++i) {
-      const double angle = 2.0 * kPi * i / kRingSegments;
-      rings[end].push_back(center + radius * (std::cos(angle) * shell.normal + std::sin(angle) * third));
-    }
+  const Eigen::Vector3d half = 0.5 * shell.length * shell.axis;
+  return {ring(shell.centroid - half, shell.axis, shell.normal, radius),
+          ring(shell.centroid + half, shell.axis, shell.normal, radius)};
+}
+
+/// A ring about each point of a line, at right angles to the line there.
+std::vector<Polyline> tubeRings(const Polyline& line, double radius)
+{
+  std::vector<Polyline> rings;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Eigen::Vector3d along = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+    const Eigen::Vector3d axis = along.norm() > 0.0 ? Eigen::Vector3d(along.normalized()) : Eigen::Vector3d::UnitZ();
+    rings.push_back(ring(line[i], axis, axis.unitOrthogonal(), radius));
   }
   return rings;
 }
@@ -107,6 +86,15 @@ Polygon convexHull(Polygon points)
   return hull;
 }
 
+Rectangle boundingBox(const Polygon& pixels)
+{
+  Rectangle box;
+  for (const Eigen::Vector2d& pixel : pixels) {
+    box.extend(pixel);
+  }
+  return box;
+}
+
 cairo_status_t writeTo(void* file, const unsigned char* data, unsigned int size)
 {
   auto& stream = *static_cast<std::ofstream*>(file);
@@ -114,122 +102,6 @@ cairo_status_t writeTo(void* file, const unsigned char* data, unsigned int size)
 }
 
 }  // namespace
-
-class Picture::Canvas
-{
-public:
-  Canvas(const Cloud& cloud, const std::vector<Color>& colors, const PictureCamera& camera) : camera_(camera)
-  {
-    const int longer = static_cast<int>(std::max(camera_.width, camera_.height));
-    scale_ = std::max(1, (kLongSide + longer / 2) / longer);
-    const int columns = static_cast<int>(camera_.width);
-    const int rows = static_cast<int>(camera_.height);
-    ShadedCloud shaded = shade(cloud, colors, camera_);
-    depth_ = std::move(shaded.depth);
-    surface_ = createSurface(scale_ * columns, scale_ * rows);
-    context_.reset(cairo_create(surface_.get()));
-    const Surface image = imageSurface(shaded.pixels, columns, rows);
-    cairo_save(context_.get());
-    cairo_scale(context_.get(), scale_, scale_);
-    cairo_set_source_surface(context_.get(), image.get(), 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(context_.get()), CAIRO_FILTER_BILINEAR);
-    cairo_pattern_set_extend(cairo_get_source(context_.get()), CAIRO_EXTEND_PAD);
-    cairo_paint(context_.get());
-    cairo_restore(context_.get());
-    cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
-    cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_ROUND);
-  }
-
-  int width() const { return scale_ * static_cast<int>(camera_.width); }
-  int height() const { return scale_ * static_cast<int>(camera_.height); }
-  cairo_t* context() const { return context_.get(); }
-  cairo_surface_t* surface() const { return surface_.get(); }
-
-  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const
-  {
-    const auto pixel = camera_.project(camera_.camera_from_cloud * point);
-    if (!pixel || pixel->cwiseAbs().maxCoeff() > kFarOutside) {
-      return std::nullopt;
-    }
-    return scale_ * (*pixel + Eigen::Vector2d(0.5, 0.5));
-  }
-
-  /// False where a point is behind the camera.
-  bool project(const Polyline& line, Polygon& pixels) const
-  {
-    for (const Eigen::Vector3d& point : line) {
-      const auto pixel = project(point);
-      if (!pixel) {
-        return false;
-      }
-      pixels.push_back(*pixel);
-    }
-    return true;
-  }
-
-  void setColor(const Color& color, double opacity)
-  {
-    cairo_set_source_rgba(context(), color.r, color.g, color.b, opacity);
-  }
-
-  void path(const Polygon& polygon)
-  {
-    cairo_new_path(context());
-    for (const Eigen::Vector2d& point : polygon) {
-      cairo_line_to(context(), point.x(), point.y());
-    }
-    cairo_close_path(context());
-  }
-
-  /// Strokes a line in space, fainter where it runs behind measured points.
-  void stroke(const Polyline& line, const Color& color, double opacity)
-  {
-    std::size_t i = 0;
-    while (i + 1 < line.size()) {
-      const bool is_hidden = hidden(line[i], line[i + 1]);
-      moveTo(line[i]);
-      for (; i + 1 < line.size() && hidden(line[i], line[i + 1]) == is_hidden; ++i) {
-        lineTo(line[i + 1]);
-      }
-      setColor(color, is_hidden ? kHidden * opacity : opacity);
-      cairo_stroke(context());
-    }
-  }
-
-private:
-  void moveTo(const Eigen::Vector3d& point)
-  {
-    if (const auto pixel = project(point)) {
-      cairo_move_to(context(), pixel->x(), pixel->y());
-    }
-  }
-
-  void lineTo(const Eigen::Vector3d& point)
-  {
-    if (const auto pixel = project(point)) {
-      cairo_line_to(context(), pixel->x(), pixel->y());
-    }
-  }
-
-  bool hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const
-  {
-    const Eigen::Vector3d middle = camera_.camera_from_cloud * (0.5 * (from + to));
-    const auto pixel = camera_.project(middle);
-    if (!pixel || !(pixel->x() > -0.5 && pixel->y() > -0.5 && pixel->x() < camera_.width - 0.5 &&
-                    pixel->y() < camera_.height - 0.5)) {
-      return false;
-    }
-    const auto column = static_cast<std::size_t>(pixel->x() + 0.5);
-    const auto row = static_cast<std::size_t>(pixel->y() + 0.5);
-    return depth_[row * camera_.width + column] < middle.z() - kHiddenDepth;
-  }
-
-  PictureCamera camera_;
-  int scale_ = 1;
-  std::vector<float> depth_;
-  Surface surface_;
-  Context context_;
-};
 
 Picture::Picture(const Cloud& cloud, const std::vector<Color>& colors) : Picture(cloud, colors, pictureCamera(cloud)) {}
 
@@ -286,22 +158,113 @@ void Picture::drawShell(const Shell& shell, const ShellStyle& style)
   const auto to = canvas_->project(shell.centroid + half);
   cairo_move_to(context, from->x(), from->y());
   cairo_line_to(context, to->x(), to->y());
-  canvas_->setColor({1.0F, 1.0F, 1.0F}, style.line_opacity);
+  canvas_->setColor(kWhite, style.line_opacity);
   cairo_set_line_width(context, style.line_width);
   cairo_stroke(context);
+}
+
+void Picture::drawTube(const Polyline& line, double radius, const BodyStyle& style)
+{
+  const std::vector<Polyline> rings = tubeRings(line, radius);
+  std::vector<Polygon> segments;
+  for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+    Polygon pixels;
+    if (!canvas_->project(rings[i], pixels) || !canvas_->project(rings[i + 1], pixels)) {
+      return;
+    }
+    segments.push_back(convexHull(pixels));
+    taken_.push_back(boundingBox(segments.back()));
+  }
+  drawUnion(segments, style);
+  cairo_set_line_width(canvas_->context(), style.line_width);
+  canvas_->stroke(line, kWhite, style.line_opacity);
+}
+
+void Picture::drawHull(const Polyline& corners, const BodyStyle& style)
+{
+  Polygon pixels;
+  if (canvas_->project(corners, pixels)) {
+    taken_.push_back(boundingBox(pixels));
+    drawUnion({convexHull(pixels)}, style);
+  }
+}
+
+/// Outlines under the fillings, which then replace what they cover of them: what is left goes around all together.
+void Picture::drawUnion(const std::vector<Polygon>& polygons, const BodyStyle& style)
+{
+  cairo_t* context = canvas_->context();
+  cairo_push_group(context);
+  cairo_set_line_width(context, 2.0 * style.line_width);
+  canvas_->setColor(style.color, style.line_opacity);
+  for (const Polygon& polygon : polygons) {
+    canvas_->path(polygon);
+    cairo_stroke(context);
+  }
+  cairo_set_operator(context, CAIRO_OPERATOR_SOURCE);
+  canvas_->setColor(style.color, style.fill_opacity);
+  for (const Polygon& polygon : polygons) {
+    canvas_->path(polygon);
+    cairo_fill(context);
+  }
+  cairo_pop_group_to_source(context);
+  cairo_paint(context);
+}
+
+void Picture::drawArrow(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const BodyStyle& style)
+{
+  Polygon ends;
+  if (!canvas_->project({from, to}, ends)) {
+    return;
+  }
+  const Eigen::Vector2d along = (ends[1] - ends[0]).stableNormalized();
+  const double head = std::min(kArrowHead, 0.5 * (ends[1] - ends[0]).norm());
+  const Eigen::Vector2d neck = ends[1] - head * along, side = 0.4 * head * along.unitOrthogonal();
+  cairo_t* context = canvas_->context();
+  canvas_->setColor(style.color, style.line_opacity);
+  cairo_set_line_width(context, style.line_width);
+  cairo_move_to(context, ends[0].x(), ends[0].y());
+  cairo_line_to(context, neck.x(), neck.y());
+  cairo_stroke(context);
+  canvas_->path({ends[1], neck + side, neck - side});
+  cairo_fill(context);
+}
+
+void Picture::drawLabel(const std::string& text, const Polyline& subject, double radius, const Color& color)
+{
+  Polygon pixels;
+  for (const Polyline& ring : tubeRings(subject, radius)) {
+    if (!canvas_->project(ring, pixels)) {
+      return;
+    }
+  }
+  cairo_t* context = canvas_->context();
+  cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
+  cairo_set_font_size(context, kLabelSize);
+  cairo_text_extents_t extents;
+  cairo_text_extents(context, text.c_str(), &extents);
+  const Rectangle picture(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(width(), height() - kCaptionHeight));
+  const Rectangle place = labelPlace(picture, boundingBox(pixels), {extents.width, extents.height}, taken_);
+  taken_.push_back(place);
+  cairo_move_to(context, place.min().x() - extents.x_bearing, place.min().y() - extents.y_bearing);
+  cairo_text_path(context, text.c_str());
+  canvas_->setColor(kBlack, 0.85);
+  cairo_set_line_width(context, 0.25 * kLabelSize);
+  cairo_stroke_preserve(context);
+  canvas_->setColor(color, 1.0);
+  cairo_fill(context);
 }
 
 void Picture::drawCaption(const std::string& text)
 {
   constexpr double kSize = 22.0;
   cairo_t* context = canvas_->context();
-  cairo_rectangle(context, 0, height() - 1.7 * kSize, width(), 1.7 * kSize);
-  canvas_->setColor({0.0F, 0.0F, 0.0F}, 0.6);
+  cairo_rectangle(context, 0, height() - kCaptionHeight, width(), kCaptionHeight);
+  canvas_->setColor(kBlack, 0.6);
   cairo_fill(context);
   cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context, kSize);
   cairo_move_to(context, 0.6 * kSize, height() - 0.55 * kSize);
-  canvas_->setColor({1.0F, 1.0F, 1.0F}, 1.0);
+  canvas_->setColor(kWhite, 1.0);
   cairo_show_text(context, text.c_str());
 }
 

@@ -30,18 +30,24 @@ Json timesJson(const StageTimes& times)
   json["occlusion"] = times.occlusion;
   json["fit"] = times.fit;
   json["shell"] = times.shell;
+  json["handles"] = times.handles;
+  json["hand_poses"] = times.hand_poses;
   return json;
+}
+
+Json quaternionJson(const Eigen::Quaterniond& rotation)
+{
+  return {rotation.x(), rotation.y(), rotation.z(), rotation.w()};
 }
 
 Json viewJson(const ViewSource& view)
 {
-  const Eigen::Quaterniond rotation(view.T_common_cloud.linear());
   Json json;
   json["file"] = view.file;
   json["points"] = view.points;
   json["first_point_index"] = view.first_point_index;
   json["translation"] = vectorJson(view.T_common_cloud.translation());
-  json["rotation"] = {rotation.x(), rotation.y(), rotation.z(), rotation.w()};
+  json["rotation"] = quaternionJson(Eigen::Quaterniond(view.T_common_cloud.linear()));
   return json;
 }
 
@@ -59,6 +65,45 @@ Json shellJson(const Shell& shell)
   json["points_in_gap"] = shell.points_in_gap;
   json["observed_free"] = shell.observed_free;
   json["point_index"] = shell.point_index;
+  return json;
+}
+
+Json handPoseJson(const GraspPose& hand, const HandPosesConfig& config)
+{
+  const Eigen::Matrix3d orientation = poseOfHand(hand, config).linear();
+  Json json;
+  json["position"] = vectorJson(hand.pose.translation());
+  json["approach"] = vectorJson(orientation.col(0));
+  json["axis"] = vectorJson(orientation.col(2));
+  json["quaternion"] = quaternionJson(Eigen::Quaterniond(hand.pose.linear()).normalized());
+  json["width"] = hand.width;
+  json["observed_free"] = hand.observed_free;
+  json["score"] = hand.score;
+  return json;
+}
+
+Json handleJson(const GraspHandle& handle, const HandPosesConfig& config)
+{
+  Json json;
+  json["id"] = handle.id;
+  json["centroid"] = vectorJson(handle.centroid);
+  json["axis"] = vectorJson(handle.axis);
+  json["normal"] = vectorJson(handle.normal);
+  json["radius"] = handle.radius;
+  json["inner_radius"] = handle.inner_radius;
+  json["length"] = handle.length;
+  json["polyline"] = Json::array();
+  for (const Eigen::Vector3d& point : handle.polyline) {
+    json["polyline"].push_back(vectorJson(point));
+  }
+  json["shells"] = handle.shells;
+  json["score"] = handle.score;
+  json["clearance"] = handle.clearance;
+  json["observed_free"] = handle.observed_free;
+  json["hand_poses"] = Json::array();
+  for (const GraspPose& hand : handle.hand_poses) {
+    json["hand_poses"].push_back(handPoseJson(hand, config));
+  }
   return json;
 }
 
@@ -105,30 +150,37 @@ std::string toJson(const CloudSource& source, const Config& config, const Locali
     json["shells"].push_back(shellJson(shell));
   }
   json["handles"] = Json::array();
+  for (const GraspHandle& handle : localization.handles) {
+    json["handles"].push_back(handleJson(handle, config.hand_poses));
+  }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // file names need not be UTF-8
 }
 
 void printTable(std::ostream& out, const CloudSource& source, const Config& config, const Localization& localization)
 {
-  constexpr std::size_t kMostRows = 10;
-  const auto& shells = localization.shells;
+  constexpr std::size_t kMostRows = 20;
+  const auto& handles = localization.handles;
   std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << source.name() << ": " << shells.size() << " shells from "
-       << localization.sampled << " samples of " << localization.points << " points in "
+  text << std::fixed << std::setprecision(1) << source.name() << ": " << handles.size() << " handles in "
        << localization.milliseconds.total << " ms (preset " << config.preset << ", " << localization.threads
        << " threads)\n";
-  if (!shells.empty()) {
-    text << "    centroid [m]               axis                 radius [m]  length [m]  points\n";
+  if (!handles.empty()) {
+    text << "  id    centroid [m]               axis                 radius [m]  length [m]  shells  score  hand "
+            "poses\n";
   }
-  for (std::size_t i = 0; i < std::min(shells.size(), kMostRows); ++i) {
-    printVector(text, shells[i].centroid, 9, 3);
-    printVector(text, shells[i].axis, 7, 2);
-    text << std::setprecision(3) << std::setw(11) << shells[i].inner_radius << std::setw(12) << shells[i].length
-         << std::setw(10) << shells[i].points_inside << "\n";
+  for (std::size_t i = 0; i < std::min(handles.size(), kMostRows); ++i) {
+    text << std::setw(4) << handles[i].id;
+    printVector(text, handles[i].centroid, 9, 3);
+    printVector(text, handles[i].axis, 7, 2);
+    text << std::setprecision(3) << std::setw(11) << handles[i].radius << std::setw(12) << handles[i].length
+         << std::setw(8) << handles[i].shells.size() << std::setprecision(2) << std::setw(7) << handles[i].score
+         << std::setw(12) << handles[i].hand_poses.size() << "\n";
   }
-  if (shells.size() > kMostRows) {
-    text << "    and " << shells.size() - kMostRows << " more (--json prints all, --picture draws them)\n";
+  if (handles.size() > kMostRows) {
+    text << "    and " << handles.size() - kMostRows << " more\n";
   }
+  text << "    " << localization.shells.size() << " shells from " << localization.sampled << " samples of "
+       << localization.points << " points (--json prints them, --picture draws them)\n";
   out << text.str();
 }
 

@@ -37,7 +37,7 @@ struct CloudSource
 /// One line of JSON, without its end: lengths in metres, null for what is not known.
 std::string toJson(const CloudSource& source, const Config& config, const Localization& localization);
 
-/// A heading and the first shells, for people.
+/// A heading, the first handles, and how many shells there are, for people.
 void printTable(std::ostream& out, const CloudSource& source, const Config& config, const Localization& localization);
 
 }  // namespace grasp_affordances

@@ -164,8 +164,8 @@ private:
       std::cerr << source.name() << ": " << explainNothing(localization, config) << "\n";
     }
     if (shows_progress_ && !position.empty()) {
-      std::cerr << "[" << position << "] " << source.file << ": " << localization.shells.size() << " shells, "
-                << std::lround(localization.milliseconds.total) << " ms\n";
+      std::cerr << "[" << position << "] " << source.file << ": " << localization.handles.size() << " handles, "
+                << localization.shells.size() << " shells, " << std::lround(localization.milliseconds.total) << " ms\n";
     }
   }
 
@@ -188,10 +188,11 @@ private:
 
   void finish(Picture& picture, const CloudSource& source, const Localization& localization)
   {
-    drawShells(picture, localization.shells);
+    drawLocalization(picture, localization, options_.config);
     const std::string others =
         source.views.size() > 1 ? " and " + std::to_string(source.views.size() - 1) + " more" : "";
     picture.drawCaption(std::filesystem::path(source.file).filename().string() + others + ":  " +
+                        std::to_string(localization.handles.size()) + " handles,  " +
                         std::to_string(localization.shells.size()) + " shells,  preset " + options_.config.preset +
                         ",  capture radius " + std::to_string(std::lround(1000 * options_.config.hand.capture_radius)) +
                         " mm");

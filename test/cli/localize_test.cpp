@@ -190,6 +190,55 @@ void expectShell(const Cloud& cloud, const Json& shell, bool has_curvature, bool
   }
 }
 
+void expectUnit(const Json& json, const char* what)
+{
+  EXPECT_NEAR(vector(json).norm(), 1.0, 1e-9) << what;
+}
+
+/// Expects what the design says of every hand pose: the quaternion's x, y and z are the approach, the direction in
+/// which fingers and thumb oppose, and the axis.
+void expectHandPose(const Json& hand)
+{
+  SCOPED_TRACE(hand.dump());
+  EXPECT_EQ(keys(hand),
+            (std::set<std::string>{"position", "approach", "axis", "quaternion", "width", "observed_free", "score"}));
+  const Json& q = hand["quaternion"];
+  const Eigen::Quaterniond rotation(q.at(3).get<double>(), q.at(0).get<double>(), q.at(1).get<double>(),
+                                    q.at(2).get<double>());
+  EXPECT_NEAR(rotation.norm(), 1.0, 1e-9);
+  EXPECT_LT((rotation * Eigen::Vector3d::UnitX() - vector(hand["approach"])).norm(), 1e-9);
+  EXPECT_LT((rotation * Eigen::Vector3d::UnitZ() - vector(hand["axis"])).norm(), 1e-9);
+  EXPECT_GT(hand["width"], 0.0);
+  EXPECT_GE(hand["score"], 0.0);
+  EXPECT_LE(hand["score"], 1.0);
+}
+
+/// Expects what the design says of every handle.
+void expectHandle(const Json& json, const Json& handle)
+{
+  SCOPED_TRACE(handle.dump());
+  EXPECT_EQ(keys(handle),
+            (std::set<std::string>{"id", "centroid", "axis", "normal", "radius", "inner_radius", "length", "polyline",
+                                   "shells", "score", "clearance", "observed_free", "hand_poses"}));
+  expectUnit(handle["axis"], "axis");
+  expectUnit(handle["normal"], "normal");
+  EXPECT_NEAR(vector(handle["axis"]).dot(vector(handle["normal"])), 0.0, 1e-6);
+  EXPECT_GE(handle["polyline"].size(), 2U);
+  for (const Json& point : handle["polyline"]) {
+    EXPECT_LE((vector(point) - vector(handle["centroid"])).norm(), handle["length"].get<double>() + 1e-6);
+  }
+  EXPECT_GT(handle["radius"], 0.0);
+  EXPECT_GE(handle["score"], 0.0);
+  EXPECT_LE(handle["score"], 1.0);
+  EXPECT_FALSE(handle["shells"].empty());
+  for (const Json& shell : handle["shells"]) {
+    EXPECT_LT(shell, json["shells"].size());
+  }
+  for (const Json& hand : handle["hand_poses"]) {
+    expectHandPose(hand);
+  }
+}
+
 void expectContract(const Json& json, const Cloud& cloud, int samples, bool has_curvature, bool has_range_image)
 {
   EXPECT_EQ(keys(json), (std::set<std::string>{"file", "frame_id", "stamp", "preset", "seed", "threads", "points",
@@ -209,10 +258,13 @@ void expectContract(const Json& json, const Cloud& cloud, int samples, bool has_
   for (const char* name : {"too_few_points", "degenerate", "occluded", "low_curvature", "concave", "no_shell"}) {
     EXPECT_TRUE(json["counts"].count(name)) << name;
   }
-  for (const char* name : {"total", "neighborhoods", "occlusion", "fit", "shell"}) {
+  for (const char* name : {"total", "neighborhoods", "occlusion", "fit", "shell", "handles", "hand_poses"}) {
     EXPECT_GE(json["milliseconds"].at(name), 0.0) << name;
   }
-  EXPECT_EQ(json["handles"], Json::array());
+  for (std::size_t i = 0; i < json["handles"].size(); ++i) {
+    EXPECT_EQ(json["handles"][i]["id"], i + 1) << "the best first";
+    expectHandle(json, json["handles"][i]);
+  }
   EXPECT_FALSE(json["shells"].empty());
   const std::size_t step = json["shells"].size() / 20 + 1;
   for (std::size_t i = 0; i < json["shells"].size(); i += step) {
@@ -240,6 +292,7 @@ TEST_F(LocalizeTest, printsTheDocumentedJson)
       EXPECT_EQ(json["seed"], 5);
       EXPECT_EQ(json["threads"], 2);
       expectContract(json, cloud, 3000, estimator == "taubin", true);
+      EXPECT_FALSE(json["handles"].empty());
     }
   }
 }
@@ -435,7 +488,7 @@ TEST_F(LocalizeTest, reportsUnreadableInputsInOneLineAndGoesOn)
   EXPECT_EQ(mixed.json().size(), 2U);
   ASSERT_EQ(lines(mixed.err).size(), 4U) << mixed.err;
   EXPECT_EQ(lines(mixed.err)[1].find("[2/4] table.pcd: "), 0U) << mixed.err;
-  EXPECT_NE(lines(mixed.err)[1].find(" shells, "), std::string::npos) << mixed.err;
+  EXPECT_NE(lines(mixed.err)[1].find(" handles, "), std::string::npos) << mixed.err;
 }
 
 /// Clouds that hold nothing to localize, or hold it in an odd way.
@@ -622,7 +675,13 @@ TEST_F(LocalizeTest, printsATableForPeople)
   EXPECT_EQ(call.err, "");
   ASSERT_GT(lines(call.out).size(), 2U);
   EXPECT_EQ(lines(call.out)[0].find("table.pcd: "), 0U) << call.out;
-  EXPECT_LE(lines(call.out).size(), 13U) << "short, however many shells there are";
+  EXPECT_LE(lines(call.out).size(), 24U) << "short, however many shells there are";
+  const Json json = localize("--json table.pcd").json().at(0);
+  const std::string handles = std::to_string(json["handles"].size()) + " handles";
+  EXPECT_NE(lines(call.out)[0].find(handles), std::string::npos) << call.out;
+  EXPECT_EQ(lines(call.out)[2].find("   1 "), 0U) << "the best handle comes first\n" << call.out;
+  const std::string shells = std::to_string(json["shells"].size()) + " shells";
+  EXPECT_NE(lines(call.out).back().find(shells), std::string::npos) << call.out;
 }
 
 TEST_F(LocalizeTest, printsHelpAndVersion)

@@ -11,10 +11,11 @@ from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, PointCloud2, PointField
 from visualization_msgs.msg import Marker, MarkerArray
 
-from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
+from grasp_affordances.msg import CylindricalShellArray, HandleArray, LocalizationStatistics
 from helpers import Listener, cloud, others_subscribed_to, publisher, scene, wait_until
 
-OUTPUTS = {'shells': CylindricalShellArray, 'markers': MarkerArray, 'statistics': LocalizationStatistics}
+OUTPUTS = {'shells': CylindricalShellArray, 'handles': HandleArray, 'markers': MarkerArray,
+           'statistics': LocalizationStatistics}
 OUTCOMES = ('too_few_points', 'degenerate', 'occluded', 'low_curvature', 'concave', 'no_shell', 'too_short',
             'unobserved_gap', 'uncovered', 'shells')
 
@@ -67,10 +68,11 @@ class Outputs(unittest.TestCase):
         with publisher(scene('table'), rate=3, frame='somewhere'):
             found = self.listeners['shells'].wait()
             statistics = self.listeners['statistics'].wait(lambda m: m.header.stamp == found.header.stamp)
+            handles = self.listeners['handles'].wait(lambda m: m.header.stamp == found.header.stamp)
             drawn = self.listeners['markers'].wait(lambda m: m.markers[-1].header.stamp == found.header.stamp)
         self.check_shells(found)
         self.check_statistics(statistics, found)
-        self.check_markers(drawn, found)
+        self.check_markers(drawn, found, handles)
         clouds.wait(lambda m: m.header.stamp == found.header.stamp and m.header.frame_id == found.header.frame_id)
         clouds.close()
 
@@ -103,13 +105,20 @@ class Outputs(unittest.TestCase):
         self.assertGreater(statistics.milliseconds_latency, statistics.milliseconds_total)
         self.assertGreaterEqual(statistics.clouds_received, statistics.clouds_processed)
 
-    def check_markers(self, array, found):
+    def check_markers(self, array, found, handles):
         shown = shown_after([array])
-        self.assertEqual(set(shown), {(ns, i) for ns in ('shells', 'axes') for i in range(len(found.shells))})
+        expected = {(ns, i) for ns in ('shells', 'axes') for i in range(len(found.shells))}
+        for handle in handles.handles:
+            expected |= {('handles', handle.id), ('handle_ids', handle.id)}
+            if handle.hand_poses:
+                expected.add(('hand_poses', handle.id))
+        self.assertEqual(set(shown), expected)
+        self.assertEqual({marker.header.frame_id for marker in shown.values()}, {found.header.frame_id})
         for i, shell in enumerate(found.shells):
-            self.assertEqual(shown['shells', i].header.frame_id, found.header.frame_id)
             self.assertEqual(shown['shells', i].pose, shell.pose)
             self.assertEqual(shown['shells', i].scale.z, shell.length)
+        for handle in handles.handles:
+            self.assertEqual(shown['handle_ids', handle.id].text, str(handle.id))
 
     def test_malformed_clouds_are_rejected_and_the_next_one_is_processed(self):
         big_endian, no_x, int_x, row_step, data = (cloud() for _ in range(5))

@@ -1,4 +1,5 @@
 #include "rendering/color.h"
+#include "rendering/label_place.h"
 #include "rendering/picture.h"
 #include "rendering/picture_camera.h"
 
@@ -205,23 +206,90 @@ TEST_F(RenderingTest, keepsAHintOfTheCloudsColor)
   EXPECT_LT(red, 0.4F);
 }
 
-TEST_F(RenderingTest, drawsEachGroupOfShellsInItsColor)
+/// Before the wall, upright: a straight handle with a hand that comes from the camera's side.
+GraspHandle makeHandle(std::uint32_t id, double x)
 {
-  std::vector<Shell> shells;
-  for (int i = 0; i < 6; ++i) {  // four on the right, two on the left
-    Shell shell = makeShell();
-    shell.centroid.x() = i < 4 ? 0.1 : -0.2;
-    shell.centroid.y() += 0.004 * i;
-    shells.push_back(shell);
+  GraspHandle handle;
+  handle.id = id;
+  handle.centroid = {x, 0.0, 0.8};
+  handle.axis = Eigen::Vector3d::UnitY();
+  handle.normal = -Eigen::Vector3d::UnitZ();
+  handle.radius = 0.02;
+  handle.inner_radius = 0.025;
+  handle.length = 0.3;
+  handle.polyline = {{x, -0.15, 0.8}, {x, 0.15, 0.8}};
+  GraspPose hand;
+  hand.pose.linear() << -handle.normal, handle.axis.cross(-handle.normal), handle.axis;
+  hand.pose.translation() = handle.centroid;
+  hand.width = 0.05;
+  handle.hand_poses.push_back(hand);
+  return handle;
+}
+
+TEST_F(RenderingTest, drawsEachHandleInItsColorWithItsHand)
+{
+  Localization localization;
+  localization.handles = {makeHandle(1, 0.1), makeHandle(2, -0.2)};
+  localization.shells.push_back(makeShell());
+  localization.handles.front().shells = {0};
+  Config config;
+  config.hand.finger_thickness = 0.02;
+  config.hand.palm_width = 0.06;
+  config.hand_poses.tool_x = 0.2;  // the hand is drawn, not its tool
+  for (GraspHandle& handle : localization.handles) {
+    handle.hand_poses.front().pose.translate(Eigen::Vector3d(0.2, 0.0, 0.0));
   }
   Picture picture(makeWall());
-  drawShells(picture, shells);
-  picture.drawCaption("6 shells");
+  drawLocalization(picture, localization, config);
+  picture.drawCaption("2 handles");
   const Image image = saved(picture);
-  const Color right = image.at(*picture.project({0.13, 0.07, 0.8}));
-  const Color left = image.at(*picture.project({-0.17, 0.07, 0.8}));
-  EXPECT_GT(right.r - right.b, 0.1F) << "orange";
-  EXPECT_GT(left.b - left.r, 0.1F) << "cyan";
+  const auto at = [&](double x, double y, double z) { return image.at(*picture.project({x, y, z})); };
+  EXPECT_GT(at(0.11, 0.12, 0.8).r - at(0.11, 0.12, 0.8).b, 0.1F) << "the tube is orange";
+  EXPECT_GT(at(-0.19, 0.12, 0.8).b - at(-0.19, 0.12, 0.8).r, 0.1F) << "cyan";
+  for (const double side : {-1.0, 1.0}) {
+    const Color finger = at(0.1 + side * 0.037, 0.01, 0.775);
+    EXPECT_GT(finger.r - finger.b, 0.1F) << "fingers on both sides of the handle";
+    const Color beside = at(0.1 + side * 0.07, 0.01, 0.775);
+    EXPECT_LT(std::abs(beside.r - beside.b), 0.02F) << "nothing beyond them";
+  }
+}
+
+TEST_F(RenderingTest, drawsABentTubeAsOneSilhouette)
+{
+  const std::vector<Eigen::Vector3d> line{{-0.1, 0.0, 0.8}, {0.0, 0.0, 0.8}, {0.0, 0.1, 0.8}};
+  BodyStyle style;
+  style.color = kRed.color;
+  style.line_width = 4.0;
+  style.fill_opacity = 0.5;
+  Picture picture(makeWall());
+  picture.drawTube(line, 0.02, style);
+  const Image image = saved(picture);
+  const auto at = [&](double x, double y) { return redness(image.at(*picture.project({x, y, 0.8}))); };
+  const float inside = at(-0.06, 0.012);
+  EXPECT_GT(inside, 0.3F);
+  EXPECT_NEAR(at(0.01, 0.06), inside, 0.05) << "the other arm";
+  EXPECT_NEAR(at(-0.008, 0.004), inside, 0.05) << "filled once, and not outlined, where the arms meet";
+  EXPECT_LT(at(-0.05, 0.06), 0.02F) << "nothing in the inside of the bend";
+}
+
+TEST(LabelPlace, IsBesideTheSubjectWhereNothingIsCovered)
+{
+  const Rectangle picture(Eigen::Vector2d(0, 0), Eigen::Vector2d(640, 480));
+  const Rectangle subject(Eigen::Vector2d(300, 200), Eigen::Vector2d(340, 280));
+  const Eigen::Vector2d size(30, 20);
+  std::vector<Rectangle> taken{subject};
+  for (int i = 0; i < 8; ++i) {
+    const Rectangle place = labelPlace(picture, subject, size, taken);
+    EXPECT_TRUE(picture.contains(place));
+    EXPECT_TRUE(place.sizes().isApprox(size));
+    EXPECT_LT(place.exteriorDistance(subject), 20.0);
+    for (const Rectangle& other : taken) {
+      EXPECT_TRUE(place.intersection(other).isEmpty()) << "label " << i;
+    }
+    taken.push_back(place);
+  }
+  const Rectangle at_the_edge(Eigen::Vector2d(600, 200), Eigen::Vector2d(640, 280));
+  EXPECT_TRUE(picture.contains(labelPlace(picture, at_the_edge, size, {})));
 }
 
 TEST_F(RenderingTest, leavesOutShellsBehindTheCameraAndDrawsCloudsWithoutPoints)
@@ -234,7 +302,12 @@ TEST_F(RenderingTest, leavesOutShellsBehindTheCameraAndDrawsCloudsWithoutPoints)
   for (const Cloud& cloud : {makeWall(), nothing, unmeasured}) {
     Picture picture(cloud);
     picture.drawShell(behind, kRed);
-    drawShells(picture, {});
+    Localization localization;
+    localization.shells = {behind};
+    localization.handles = {makeHandle(1, 0.0)};
+    localization.handles.front().polyline = {{0.0, 0.0, 0.01}, {0.0, 0.0, -0.1}};
+    localization.handles.front().hand_poses.front().pose.translation().z() = -0.1;
+    drawLocalization(picture, localization, Config());
     const Image image = saved(picture);
     EXPECT_GT(image.width(), 0);
     EXPECT_LT(std::abs(redness(image.at({0.5 * image.width(), 0.5 * image.height()}))), 0.05);

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "grasp_affordances/cloud.h"
+#include "rendering/color.h"
+#include "rendering/picture_camera.h"
+
+#include <cairo.h>
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+using Polyline = std::vector<Eigen::Vector3d>;  ///< in space: m, in the cloud's frame
+using Polygon = std::vector<Eigen::Vector2d>;   ///< in the picture: pixels
+
+/// A shaded cloud to draw on with cairo.
+class Canvas
+{
+public:
+  Canvas(const Cloud& cloud, const std::vector<Color>& colors, const PictureCamera& camera);
+
+  int width() const;   ///< pixels, a multiple of the camera's
+  int height() const;  ///< pixels
+  cairo_t* context() const { return context_.get(); }
+  cairo_surface_t* surface() const { return surface_.get(); }
+
+  /// Empty behind the camera and far outside.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
+
+  /// Appends to `pixels`. False where there is no pixel for one of the points.
+  bool project(const Polyline& line, Polygon& pixels) const;
+
+  void setColor(const Color& color, double opacity);
+
+  /// Makes a closed path of the polygon.
+  void path(const Polygon& polygon);
+
+  /// Strokes a line in space, fainter where it runs behind measured points.
+  void stroke(const Polyline& line, const Color& color, double opacity);
+
+private:
+  struct Deleter
+  {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+  };
+  using Surface = std::unique_ptr<cairo_surface_t, Deleter>;
+
+  static Surface createSurface(int width, int height);
+  static Surface imageSurface(const std::vector<Color>& pixels, int width, int height);
+  void moveTo(const Eigen::Vector3d& point);
+  void lineTo(const Eigen::Vector3d& point);
+  bool hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+  PictureCamera camera_;
+  int scale_ = 1;
+  std::vector<float> depth_;
+  Surface surface_;
+  std::unique_ptr<cairo_t, Deleter> context_;
+};
+
+}  // namespace grasp_affordances
