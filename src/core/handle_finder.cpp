@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace grasp_affordances
 {
@@ -69,7 +70,8 @@ double distanceFrom(const std::vector<Eigen::Vector3d>& polyline, const Eigen::V
   return least;
 }
 
-double median(std::vector<double> values)
+/// Reorders the values, of which there is at least one.
+double median(std::vector<double>& values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -94,7 +96,7 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
       continue;
     }
     if (handles.size() == count) {
-      handles.emplace_back();
+      addSpare(handles);
     }
     GraspHandle& handle = handles[count++];
     handle.shells.assign(group.begin(), group.end());
@@ -109,7 +111,10 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
       --count;
     }
   }
-  handles.resize(count);
+  while (handles.size() > count) {
+    spare_.push_back(std::move(handles.back()));
+    handles.pop_back();
+  }
   std::sort(handles.begin(), handles.end(), [](const GraspHandle& a, const GraspHandle& b) {
     const auto key = [](const GraspHandle& h) {
       return std::make_tuple(-h.score, h.centroid.x(), h.centroid.y(), h.centroid.z());
@@ -121,15 +126,25 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
   }
 }
 
+void HandleFinder::addSpare(std::vector<GraspHandle>& handles)
+{
+  if (spare_.empty()) {
+    handles.emplace_back();
+  } else {
+    handles.push_back(std::move(spare_.back()));
+    spare_.pop_back();
+  }
+}
+
 void HandleFinder::describe(const PreparedViews& views, const Config& config, GraspHandle& handle)
 {
-  std::vector<double> radii;
+  radii_.clear();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (const Shell* shell : members_) {
-    radii.push_back(shell->inner_radius);
+    radii_.push_back(shell->inner_radius);
     normal += shell->normal;
   }
-  handle.inner_radius = median(radii);
+  handle.inner_radius = median(radii_);
   handle.radius = handle.inner_radius;
   tracer_.trace(members_, axis_);
   if (axis_.straight()) {
@@ -212,11 +227,11 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
   BarPrior prior;
   prior.tilt = 1e-3;
   prior.taper = 1e-3;
-  const std::vector<Eigen::Vector3d> traced = line;
-  for (std::size_t i = 0; i < traced.size(); ++i) {
+  traced_ = line;
+  for (std::size_t i = 0; i < traced_.size(); ++i) {
     FittedBar bar;
-    bar.origin = traced[i];
-    bar.axis = (traced[std::min(i + 1, traced.size() - 1)] - traced[i > 0 ? i - 1 : 0]).normalized();
+    bar.origin = traced_[i];
+    bar.axis = (traced_[std::min(i + 1, traced_.size() - 1)] - traced_[i > 0 ? i - 1 : 0]).normalized();
     bar.radius = handle.inner_radius;
     gatherPoints(views, bar.origin, std::hypot(kHalfLength, reach));
     keepAlong(bar, kHalfLength, reach);

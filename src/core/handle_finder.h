@@ -38,6 +38,7 @@ public:
             std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles);
 
 private:
+  void addSpare(std::vector<GraspHandle>& handles);
   void describe(const PreparedViews& views, const Config& config, GraspHandle& handle);
   void gatherPoints(const PreparedViews& views, const Eigen::Vector3d& center, double radius);
   void keepAlong(const FittedBar& bar, double half_length, double radius);
@@ -51,8 +52,10 @@ private:
   AxisTracer tracer_;
   SharedAxis axis_;
   Neighborhood neighborhood_;
-  std::vector<Eigen::Vector3d> points_, near_;
+  std::vector<double> radii_;
+  std::vector<Eigen::Vector3d> points_, near_, traced_;
   std::vector<Eigen::Vector3d> samples_;  // m, in the common frame
+  std::vector<GraspHandle> spare_;        // whose memory will be used again
 };
 
 }  // namespace grasp_affordances
