@@ -282,7 +282,7 @@ void HandleFinder::rate(const Config& config, GraspHandle& handle) const
   const double support = count / (count + kHalfSupport);
   const double length = std::min(1.0, handle.length / (2.0 * config.shell.clearance_length));
   constexpr double kFullAgreement = 0.3;
-  double product = support * handle.clearance * length * std::min(1.0, handle.agreement / kFullAgreement);
+  double product = support * handle.clearance * length * std::sqrt(std::min(1.0, handle.agreement / kFullAgreement));
   double factors = 4.0;
   if (std::isfinite(handle.observed_free)) {
     product *= std::min(1.0, 2.0 * handle.observed_free);

@@ -22,7 +22,9 @@ namespace grasp_affordances
 ///
 /// The score of a handle is the geometric mean of five numbers in [0, 1]:
 /// - support, n / (n + 5) of n shells;
-/// - agreement: of the samples drawn within it the share that ended as one of its shells, 0.3 or more counting as 1;
+/// - agreement: of the samples drawn within it the share that ended as one of its shells, 0.3 or more counting as 1; of
+/// that
+///   the square root;
 /// - clearance: 1 minus the mean of points in the gap over those that would block it;
 /// - observed free space: twice the mean share of the gaps that the sensor saw through, at most 1; left out without a
 ///   range image;
