@@ -24,9 +24,13 @@ bool standsBefore(const Shell* a, const Shell* b)
   return key(*a) < key(*b);
 }
 
-/// m, one standard deviation of the depth of an Xtion at a depth.
-double depthNoise(double depth)
+/// m, one standard deviation of the depth of an Xtion at a point's distance from the nearest sensor.
+double depthNoise(const PreparedViews& views, const Eigen::Vector3d& point)
 {
+  double depth = std::numeric_limits<double>::infinity();
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    depth = std::min(depth, (views.T_common_view(view) * views[view].sensor - point).norm());
+  }
   return 0.0008 + 0.0016 * depth * depth;
 }
 
@@ -100,6 +104,9 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
     }
     GraspHandle& handle = handles[count++];
     handle.shells.assign(group.begin(), group.end());
+    handle.hand_poses.clear();
+    handle.hits = 1;
+    handle.unseen_for = 0.0;
     members_.clear();
     for (const std::uint32_t i : group) {
       members_.push_back(&shells[i]);
@@ -209,7 +216,7 @@ void HandleFinder::fitLine(const PreparedViews& views, GraspHandle& handle)
   BarPrior prior;
   prior.tilt = axis_.round ? 1e-3 : 0.15;
   prior.taper = axis_.round ? 1e-3 : 0.1;
-  const auto fitted = fitBar(near_, bar, prior, depthNoise(bar.origin.norm()));
+  const auto fitted = fitBar(near_, bar, prior, depthNoise(views, bar.origin));
   if (!fitted || fitted->radius > handle.inner_radius + kMargin) {
     return;
   }
@@ -235,7 +242,7 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
     bar.radius = handle.inner_radius;
     gatherPoints(views, bar.origin, std::hypot(kHalfLength, reach));
     keepAlong(bar, kHalfLength, reach);
-    const auto fitted = fitBar(near_, bar, prior, depthNoise(bar.origin.norm()));
+    const auto fitted = fitBar(near_, bar, prior, depthNoise(views, bar.origin));
     if (fitted && fitted->radius <= handle.inner_radius + kMargin) {
       line[i] = fitted->origin;
     }
@@ -245,7 +252,7 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
   bar.radius = handle.inner_radius;
   gatherPoints(views, bar.origin, std::hypot(2 * kHalfLength, reach));
   keepAlong(bar, 2 * kHalfLength, reach);
-  const auto fitted = fitBar(near_, bar, prior, depthNoise(bar.origin.norm()));
+  const auto fitted = fitBar(near_, bar, prior, depthNoise(views, bar.origin));
   if (fitted && fitted->radius <= handle.inner_radius + kMargin) {
     handle.radius = fitted->radius;
   }

@@ -70,15 +70,38 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
 void PreparedViews::joinPoints()
 {
   points_.clear();
-  screened_.clear();
-  const bool screens = allHaveImages();  // otherwise what cannot be screened would hardly be sampled
   for (const View& view : views_) {
-    const auto numbered = [&](std::uint32_t point) { return view.first_point + point; };
-    const std::vector<std::uint32_t>&all = view.cloud->points(), &screened = view.cloud->screen.points();
-    std::transform(all.begin(), all.end(), std::back_inserter(points_), numbered);
-    if (screens) {
-      std::transform(screened.begin(), screened.end(), std::back_inserter(screened_), numbered);
+    const std::vector<std::uint32_t>& all = view.cloud->points();
+    std::transform(all.begin(), all.end(), std::back_inserter(points_),
+                   [&](std::uint32_t point) { return view.first_point + point; });
+  }
+  joinScreened();
+}
+
+/// By turns, so that the views have the same share in the first of these points as in all: the samples of a first round
+/// are drawn from those.
+void PreparedViews::joinScreened()
+{
+  screened_.clear();
+  if (!allHaveImages()) {
+    return;  // what cannot be screened would hardly be sampled
+  }
+  std::size_t total = 0;
+  for (View& view : views_) {
+    view.joined = 0;
+    total += view.cloud->screen.points().size();
+  }
+  const auto isLater = [](const View& a, const View& b) {
+    return (2 * a.joined + 1) * b.cloud->screen.points().size() > (2 * b.joined + 1) * a.cloud->screen.points().size();
+  };
+  while (screened_.size() < total) {
+    View* next = nullptr;
+    for (View& view : views_) {
+      if (view.joined < view.cloud->screen.points().size() && (next == nullptr || isLater(*next, view))) {
+        next = &view;
+      }
     }
+    screened_.push_back(next->first_point + next->cloud->screen.points()[next->joined++]);
   }
 }
 

@@ -94,6 +94,7 @@ private:
     PreparedCloud* cloud;
     Eigen::Isometry3d T_common_cloud;
     std::uint32_t first_point;
+    std::size_t joined = 0;  // of its screened points
   };
 
   /// Two views, and by how much they disagree (m).
@@ -112,6 +113,7 @@ private:
   template <typename Visitor>
   void visitParts(const SamplePoint& sample, const SphereView* spheres, Visitor&& visit) const;
   void joinPoints();
+  void joinScreened();
   void relateViews();
   void compareViews(ThreadTeam& team);
   void uncoverHiddenSurfaces(double margin, ThreadTeam& team);
