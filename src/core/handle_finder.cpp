@@ -34,15 +34,6 @@ double depthNoise(const PreparedViews& views, const Eigen::Vector3d& point)
   return 0.0008 + 0.0016 * depth * depth;
 }
 
-double lengthOf(const std::vector<Eigen::Vector3d>& polyline)
-{
-  double length = 0.0;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    length += (polyline[i] - polyline[i - 1]).norm();
-  }
-  return length;
-}
-
 /// Place and direction in the middle of a polyline's length.
 void middleOf(const std::vector<Eigen::Vector3d>& polyline, Eigen::Vector3d& place, Eigen::Vector3d& direction)
 {
