@@ -56,8 +56,8 @@ std::string shellsWithoutHandle(const Localization& localization, const Config& 
 {
   std::ostringstream text;
   text << localization.shells.size() << (localization.shells.size() == 1 ? " shell was" : " shells were")
-       << " found, but no handle of handles/min_support = " << config.handles.min_support
-       << " or more about one axis with a score of handles/min_score = " << config.handles.min_score
+       << " found, but not handles/min_support = " << config.handles.min_support
+       << " about one axis that score handles/min_score = " << config.handles.min_score << " or more"
        << ": draw more sampling/samples (" << config.sampling.samples << ") or ask for less";
   return text.str();
 }
