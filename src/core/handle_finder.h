@@ -52,6 +52,7 @@ private:
   SharedAxis axis_;
   Neighborhood neighborhood_;
   std::vector<Eigen::Vector3d> points_, near_;
+  std::vector<double> radii_;             // m, of the pieces of a bent handle
   std::vector<Eigen::Vector3d> samples_;  // m, in the common frame
 };
 
