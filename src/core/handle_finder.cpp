@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double kMargin = 0.002;         // m beyond the inner radius, for noise of the surface
-constexpr std::size_t kMostPoints = 600;  // that a bar is fitted to
+constexpr std::size_t kMostPoints = 300;  // that a bar is fitted to
 
 /// An order that does not depend on that of the samples.
 bool standsBefore(const Shell* a, const Shell* b)
@@ -216,36 +216,40 @@ void HandleFinder::fitLine(const PreparedViews& views, GraspHandle& handle)
   axis_.polyline.back() = fitted->origin + half_length * fitted->axis;
 }
 
-/// Moves the points of the axis to the middle of the surface around each, then fits a short bar in the middle.
+/// A short bar about each point of a bent axis. Their median radius is the handle's: that of a long bar would be too
+/// large, since it bends away. With that radius the points move to the middle of the surface around them.
 void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
 {
   constexpr double kHalfLength = 0.01;  // m
   const double reach = handle.inner_radius + kMargin;
-  std::vector<Eigen::Vector3d>& line = axis_.polyline;
+  traced_ = axis_.polyline;
   BarPrior prior;
   prior.tilt = 1e-3;
   prior.taper = 1e-3;
-  traced_ = line;
-  for (std::size_t i = 0; i < traced_.size(); ++i) {
+  const auto fitPiece = [&](std::size_t i) {
     FittedBar bar;
     bar.origin = traced_[i];
     bar.axis = (traced_[std::min(i + 1, traced_.size() - 1)] - traced_[i > 0 ? i - 1 : 0]).normalized();
-    bar.radius = handle.inner_radius;
+    bar.radius = handle.radius;
     gatherPoints(views, bar.origin, std::hypot(kHalfLength, reach));
     keepAlong(bar, kHalfLength, reach);
     const auto fitted = fitBar(near_, bar, prior, depthNoise(views, bar.origin));
-    if (fitted && fitted->radius <= handle.inner_radius + kMargin) {
-      line[i] = fitted->origin;
+    return fitted && fitted->radius <= reach ? fitted : std::nullopt;
+  };
+  radii_.clear();
+  for (std::size_t i = 0; i < traced_.size(); ++i) {
+    if (const auto piece = fitPiece(i)) {
+      radii_.push_back(piece->radius);
     }
   }
-  FittedBar bar;
-  middleOf(line, bar.origin, bar.axis);
-  bar.radius = handle.inner_radius;
-  gatherPoints(views, bar.origin, std::hypot(2 * kHalfLength, reach));
-  keepAlong(bar, 2 * kHalfLength, reach);
-  const auto fitted = fitBar(near_, bar, prior, depthNoise(views, bar.origin));
-  if (fitted && fitted->radius <= handle.inner_radius + kMargin) {
-    handle.radius = fitted->radius;
+  if (!radii_.empty()) {
+    handle.radius = median(radii_);
+  }
+  prior.radius = 1e-4;
+  for (std::size_t i = 0; i < traced_.size(); ++i) {
+    if (const auto piece = fitPiece(i)) {
+      axis_.polyline[i] = piece->origin;
+    }
   }
 }
 

@@ -54,7 +54,7 @@ private:
   AxisTracer tracer_;
   SharedAxis axis_;
   Neighborhood neighborhood_;
-  std::vector<double> radii_;
+  std::vector<double> radii_;  // m, of the shells, or of the pieces of a bent handle
   std::vector<Eigen::Vector3d> points_, near_, traced_;
   std::vector<Eigen::Vector3d> samples_;  // m, in the common frame
   std::vector<GraspHandle> spare_;        // whose memory will be used again

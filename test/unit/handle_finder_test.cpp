@@ -178,11 +178,11 @@ TEST(HandleFinder, FollowsTheHandleOfAMug)
     ASSERT_EQ(handles.size(), 1U) << what;
     const GraspHandle& handle = handles[0];
     EXPECT_GT(handle.polyline.size(), 2U) << what;
-    EXPECT_NEAR(handle.radius, mug.handle_tube_radius, 0.002) << what;
+    EXPECT_NEAR(handle.radius, mug.handle_tube_radius, 0.0015) << what;
     EXPECT_GT(handle.length, mug.handle_radius) << what;
     for (const Vector3d& point : handle.polyline) {
       const Vector3d offset = point - center;
-      EXPECT_LT(std::hypot(std::hypot(offset.x(), offset.z()) - mug.handle_radius, offset.y()), 0.005)
+      EXPECT_LT(std::hypot(std::hypot(offset.x(), offset.z()) - mug.handle_radius, offset.y()), 0.003)
           << what << ", at " << offset.transpose();
     }
   }
