@@ -144,7 +144,7 @@ struct TrackingConfig
   bool track = true;            ///< handles keep their id from cloud to cloud, and are smoothed
   double max_distance = 0.03;   ///< m, at right angles to the axis, that a handle may move between clouds
   double max_angle = 0.6;       ///< rad that a handle may turn between clouds
-  double smoothing_time = 0.5;  ///< s over which a handle's pose and sizes are averaged; 0: not smoothed
+  double smoothing_time = 1.0;  ///< s over which a handle's pose and sizes are averaged; 0: not smoothed
   int min_hits = 2;             ///< clouds that a new handle must be found in before it is reported
   double lifetime = 1.0;        ///< s for which a handle that is not found any more is still reported
 };

@@ -15,8 +15,8 @@ namespace grasp_affordances
 /// it is found shorter or in several pieces. One that is new gets the next id, and is reported once it was found in
 /// `min_hits` clouds; those of the first cloud, of the first one after reset() or after a gap in time longer than
 /// `lifetime`, are reported at once: a single cloud gives handles. A handle that is not found keeps its last state,
-/// with `unseen_for` and without shells, until `lifetime` has passed. Pieces that stay apart for longer than that are
-/// handles of their own.
+/// with `unseen_for` and without shells, until `lifetime` has passed; where it comes back within five lifetimes it has
+/// its id again. Pieces that stay apart for longer than that are handles of their own.
 ///
 /// Without TrackingConfig::track handles pass through as they are, ids and all.
 class HandleTracker

@@ -16,6 +16,7 @@ namespace
 {
 
 constexpr double kAnother = 1.0;  // unlikeness from which it is another handle
+constexpr double kMemory = 5.0;   // lifetimes, after which a handle that was reported gets a new id where it comes back
 
 struct Track
 {
@@ -130,7 +131,9 @@ private:
 
   void forget()
   {
-    const auto gone = [&](const Track& track) { return track.handle.handle().unseen_for > config_.lifetime; };
+    const auto gone = [&](const Track& track) {
+      return track.handle.handle().unseen_for > (track.reported ? kMemory : 1.0) * config_.lifetime;
+    };
     tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), gone), tracks_.end());
   }
 
@@ -144,7 +147,7 @@ private:
   {
     known_.clear();
     for (const Track& track : tracks_) {
-      if (track.reported) {
+      if (track.reported && track.handle.handle().unseen_for <= config_.lifetime) {
         known_.push_back(track.handle.handle());
       }
     }

@@ -19,7 +19,7 @@ constexpr std::size_t kCurvePoints = 17;
 // An end that is found short of where it is known to be counts less: what hides a part of a handle, and samples that
 // miss it, make it shorter; nothing makes it longer as often.
 constexpr double kShortfallWeight = 0.25;
-constexpr double kAxisSupport = 0.25;  // of the length, over which the axis of a bent handle is taken
+constexpr double kAxisSupport = 0.5;  // of the length, over which the axis of a bent handle is taken
 
 /// The place of an extent along a curve, the end with the smaller way first.
 struct Extent

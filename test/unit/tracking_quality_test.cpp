@@ -176,7 +176,6 @@ private:
   void observe(const Affordance& affordance, const std::vector<const GraspHandle*>& handles, std::size_t frame)
   {
     affordances_[affordance.label] = true;
-    quality_.handles += handles.size();
     const auto id = ids_.find(affordance.label);
     const GraspHandle* chosen = nullptr;
     for (const GraspHandle* handle : handles) {
@@ -186,6 +185,7 @@ private:
     }
     if (id != ids_.end()) {
       ++quality_.frames;
+      quality_.handles += handles.size();
       quality_.kept += chosen != nullptr ? 1 : 0;
       quality_.seen += chosen != nullptr && chosen->unseen_for == 0.0 ? 1 : 0;
     }
@@ -255,8 +255,8 @@ void print(const std::string& name, const Quality& quality)
               quality.quantile(&Jitter::angle, 0.95) / kDegree);
 }
 
-/// GRASP_AFFORDANCES_TRACKING_SEEDS (1), ..._FIRST_SEED (201) and ..._FRAMES (30) make it longer: docs/tracking.md is
-/// of 5 seeds and 100 frames.
+/// The environment variables GRASP_AFFORDANCES_TRACKING_SEEDS (1), ..._FIRST_SEED (201) and ..._FRAMES (25) make it
+/// longer: docs/tracking.md is of 3 seeds and 60 frames.
 TEST(TrackingQuality, HandlesKeepTheirIdsAndStandStillBeforeAMovingCamera)
 {
   const std::size_t frames = numberFrom("GRASP_AFFORDANCES_TRACKING_FRAMES", 25);
@@ -270,6 +270,9 @@ TEST(TrackingQuality, HandlesKeepTheirIdsAndStandStillBeforeAMovingCamera)
     qualities[i] = watch(scenes[i / seeds], first_seed + i % seeds, frames, config);
   });
 
+  std::puts(
+      "scene | reported | id kept, % | found, % | handles per affordance | handles | jitter, median and 95 %: across, "
+      "mm | along, mm | angle, degrees");
   Quality all;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     Quality quality;
@@ -280,11 +283,13 @@ TEST(TrackingQuality, HandlesKeepTheirIdsAndStandStillBeforeAMovingCamera)
     all += quality;
   }
   print("all", all);
-  EXPECT_GT(all.frames, 1000U);
+  EXPECT_GT(all.frames, 800U);
   EXPECT_GE(all.keptShare(), 0.99);
-  EXPECT_LT(all.quantile(&Jitter::across, 0.5), 0.003);
-  EXPECT_LT(all.quantile(&Jitter::along, 0.5), 0.003);
-  EXPECT_LT(all.quantile(&Jitter::angle, 0.5), 2.0 * kDegree);
+  EXPECT_GT(all.jitters.size(), 20U);
+  constexpr double kMostHandles = 0.8;
+  EXPECT_LT(all.quantile(&Jitter::across, kMostHandles), 0.003);
+  EXPECT_LT(all.quantile(&Jitter::along, kMostHandles), 0.003);
+  EXPECT_LT(all.quantile(&Jitter::angle, kMostHandles), 2.0 * kDegree);
 }
 
 }  // namespace
