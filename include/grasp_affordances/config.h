@@ -115,9 +115,9 @@ struct HandlesConfig
   double max_angle = 0.6;                ///< rad, between the axes of shells that follow one another along a handle
   double max_distance = 0.005;           ///< m, between their axes
   double max_radius_difference = 0.012;  ///< m, between their inner radii
-  double max_gap = 0.01;                 ///< m along the axis, between shells on either side of a step of the radius
+  double max_gap = 0.02;                 ///< m, between the ends of shells on either side of a step of the radius
   int min_support = 3;                   ///< shells; fewer are no handle
-  double min_score = 0.62;               ///< handles with a lower score are left out
+  double min_score = 0.66;               ///< handles with a lower score are left out
 };
 
 /// Poses of a hand on the ring around a handle's axis.

@@ -11,6 +11,11 @@
 namespace grasp_affordances
 {
 
+/// Points joined by straight segments; at least two, of which none is the same as the next. Metres.
+using Polyline = std::vector<Eigen::Vector3d>;
+
+double lengthOf(const Polyline& polyline);
+
 /// A pose of a hand that is open around a handle, ready to close: origin on the handle's axis, x forward along the
 /// approach, z along the axis, y the direction in which fingers and thumb oppose. Seen along x the hand comes from -x.
 /// For a symmetric hand z and -z, a turn about x by pi, are the same grasp: z is along the handle's axis, and the same
@@ -39,10 +44,10 @@ struct GraspHandle
   double radius = 0.0;                                 ///< of the fitted surface, at the centroid
   double inner_radius = 0.0;                           ///< of the shell that holds the surface there
   double length = 0.0;                                 ///< along the axis
-  std::vector<Eigen::Vector3d> polyline;               ///< the axis: two points or, of a bent one, more
+  Polyline polyline;                                   ///< the axis: two points or, of a bent one, more
   std::vector<std::uint32_t> shells;                   ///< indices into Localization::shells, ascending
   double score = 0.0;                                  ///< in [0, 1]: see HandleFinder
-  double agreement = 0.0;      ///< in [0, 1]: of the samples drawn on it, those that ended as one of its shells
+  double agreement = 0.0;             ///< in [0, 1]: of the samples drawn on it, those that ended as one of its shells
   double clearance = 0.0;             ///< in [0, 1]: 1 for gaps without a point, 0 where they nearly block
   double observed_free = 0.0;         ///< share of the gaps that the sensor saw through; NaN without a range image
   std::vector<GraspPose> hand_poses;  ///< the best first
@@ -54,6 +59,9 @@ struct GraspHandle
 
 /// The handle in the frame that T leads to.
 void transform(const Eigen::Isometry3d& T, GraspHandle& handle);
+
+/// The tool's frame in the hand's, T_hand_tool: the tool_x, ... of `config`.
+Eigen::Isometry3d toolInHand(const HandPosesConfig& config);
 
 /// The pose of the hand itself, in the frame of the grasp's pose, which is that of the tool that `config` gives.
 Eigen::Isometry3d poseOfHand(const GraspPose& grasp, const HandPosesConfig& config);

@@ -123,7 +123,7 @@ void visitParameters(ConfigT& c, Visitor&& visit)
   visit("handles/max_radius_difference", c.handles.max_radius_difference, Real{0.0, 0.5}, "m",
         "between their inner radii");
   visit("handles/max_gap", c.handles.max_gap, Real{0.0, 0.5}, "m",
-        "along the axis, between shells on either side of a step of the radius");
+        "between the ends of shells on either side of a step of the radius");
   visit("handles/min_support", c.handles.min_support, Count{1, 100000}, "", "shells; fewer are no handle");
   visit("handles/min_score", c.handles.min_score, Real{0.0, 1.0}, "", "handles with a lower score are left out");
 

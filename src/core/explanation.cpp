@@ -46,17 +46,19 @@ std::string nothingSampled(const Localization& localization)
     return "there was no cloud to draw samples from";
   }
   const bool beyond_workspace = reasons.find("workspace") != std::string::npos;
-  return reasons + (beyond_workspace ? ": widen that box, workspace/min_x to workspace/max_z or the region of a call, or look at its frame"
-                                     : ": look at the sensor, its distance, and what publishes its cloud");
+  return reasons +
+         (beyond_workspace
+              ? ": widen that box, workspace/min_x to workspace/max_z or the region of a call, or look at its frame"
+              : ": look at the sensor, its distance, and what publishes its cloud");
 }
 
-std::string tooFewShells(const Localization& localization, const Config& config)
+std::string shellsWithoutHandle(const Localization& localization, const Config& config)
 {
   std::ostringstream text;
   text << localization.shells.size() << (localization.shells.size() == 1 ? " shell was" : " shells were")
-       << " found, but not handles/min_support = " << config.handles.min_support
-       << " about one axis: draw more sampling/samples (" << config.sampling.samples
-       << ") or ask for a smaller support";
+       << " found, but no handle of handles/min_support = " << config.handles.min_support
+       << " or more about one axis with a score of handles/min_score = " << config.handles.min_score
+       << ": draw more sampling/samples (" << config.sampling.samples << ") or ask for less";
   return text.str();
 }
 
@@ -133,7 +135,7 @@ std::string explainNothing(const Localization& localization, const Config& confi
   if (localization.sampled == 0) {
     reason = nothingSampled(localization);
   } else if (!localization.shells.empty() && !late) {
-    reason = tooFewShells(localization, config);
+    reason = shellsWithoutHandle(localization, config);
   } else {
     reason = whereSamplesEnded(localization, config);
   }

@@ -31,14 +31,6 @@ Eigen::Vector3d preferredApproach(const HandPosesConfig& config, const Eigen::Is
                                : Eigen::Vector3d(T_approach_common.linear().transpose() * direction.normalized());
 }
 
-Eigen::Isometry3d toolInHand(const HandPosesConfig& config)
-{
-  return Eigen::Translation3d(config.tool_x, config.tool_y, config.tool_z) *
-         Eigen::AngleAxisd(config.tool_yaw, Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(config.tool_pitch, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(config.tool_roll, Eigen::Vector3d::UnitX());
-}
-
 /// Unit, at right angles to an axis and nearest to a direction; none where that is along the axis.
 std::optional<Eigen::Vector3d> across(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
 {
@@ -46,15 +38,6 @@ std::optional<Eigen::Vector3d> across(const Eigen::Vector3d& direction, const Ei
   constexpr double kAlong = 1e-3;
   return part.norm() > kAlong * direction.norm() ? std::make_optional<Eigen::Vector3d>(part.normalized())
                                                  : std::nullopt;
-}
-
-double lengthOf(const std::vector<Eigen::Vector3d>& polyline)
-{
-  double length = 0.0;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    length += (polyline[i] - polyline[i - 1]).norm();
-  }
-  return length;
 }
 
 /// The point at a distance from a polyline's beginning along it; an end beyond that.

@@ -2,8 +2,19 @@
 
 #include "grasp_affordances/localization.h"
 
+#include <cstddef>
+
 namespace grasp_affordances
 {
+
+double lengthOf(const Polyline& polyline)
+{
+  double length = 0.0;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    length += (polyline[i] - polyline[i - 1]).norm();
+  }
+  return length;
+}
 
 void transform(const Eigen::Isometry3d& T, GraspHandle& handle)
 {
@@ -18,13 +29,17 @@ void transform(const Eigen::Isometry3d& T, GraspHandle& handle)
   }
 }
 
+Eigen::Isometry3d toolInHand(const HandPosesConfig& config)
+{
+  return Eigen::Translation3d(config.tool_x, config.tool_y, config.tool_z) *
+         Eigen::AngleAxisd(config.tool_yaw, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(config.tool_pitch, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(config.tool_roll, Eigen::Vector3d::UnitX());
+}
+
 Eigen::Isometry3d poseOfHand(const GraspPose& grasp, const HandPosesConfig& config)
 {
-  const Eigen::Isometry3d T_hand_tool = Eigen::Translation3d(config.tool_x, config.tool_y, config.tool_z) *
-                                        Eigen::AngleAxisd(config.tool_yaw, Eigen::Vector3d::UnitZ()) *
-                                        Eigen::AngleAxisd(config.tool_pitch, Eigen::Vector3d::UnitY()) *
-                                        Eigen::AngleAxisd(config.tool_roll, Eigen::Vector3d::UnitX());
-  return grasp.pose * T_hand_tool.inverse();
+  return grasp.pose * toolInHand(config).inverse();
 }
 
 }  // namespace grasp_affordances

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace grasp_affordances
 {
@@ -31,15 +32,6 @@ double depthNoise(const PreparedViews& views, const Eigen::Vector3d& point)
     depth = std::min(depth, (views.T_common_view(view) * views[view].sensor - point).norm());
   }
   return 0.0008 + 0.0016 * depth * depth;
-}
-
-double lengthOf(const std::vector<Eigen::Vector3d>& polyline)
-{
-  double length = 0.0;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    length += (polyline[i] - polyline[i - 1]).norm();
-  }
-  return length;
 }
 
 /// Place and direction in the middle of a polyline's length.
@@ -73,7 +65,8 @@ double distanceFrom(const std::vector<Eigen::Vector3d>& polyline, const Eigen::V
   return least;
 }
 
-double median(std::vector<double> values)
+/// Reorders the values, of which there is at least one.
+double median(std::vector<double>& values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -98,7 +91,7 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
       continue;
     }
     if (handles.size() == count) {
-      handles.emplace_back();
+      addSpare(handles);
     }
     GraspHandle& handle = handles[count++];
     handle.shells.assign(group.begin(), group.end());
@@ -116,7 +109,10 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
       --count;
     }
   }
-  handles.resize(count);
+  while (handles.size() > count) {
+    spare_.push_back(std::move(handles.back()));
+    handles.pop_back();
+  }
   std::sort(handles.begin(), handles.end(), [](const GraspHandle& a, const GraspHandle& b) {
     const auto key = [](const GraspHandle& h) {
       return std::make_tuple(-h.score, h.centroid.x(), h.centroid.y(), h.centroid.z());
@@ -128,15 +124,25 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
   }
 }
 
+void HandleFinder::addSpare(std::vector<GraspHandle>& handles)
+{
+  if (spare_.empty()) {
+    handles.emplace_back();
+  } else {
+    handles.push_back(std::move(spare_.back()));
+    spare_.pop_back();
+  }
+}
+
 void HandleFinder::describe(const PreparedViews& views, const Config& config, GraspHandle& handle)
 {
-  std::vector<double> radii;
+  radii_.clear();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (const Shell* shell : members_) {
-    radii.push_back(shell->inner_radius);
+    radii_.push_back(shell->inner_radius);
     normal += shell->normal;
   }
-  handle.inner_radius = median(radii);
+  handle.inner_radius = median(radii_);
   handle.radius = handle.inner_radius;
   tracer_.trace(members_, axis_);
   if (axis_.straight()) {
@@ -216,14 +222,14 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
 {
   constexpr double kHalfLength = 0.01;  // m
   const double reach = handle.inner_radius + kMargin;
-  const std::vector<Eigen::Vector3d> traced = axis_.polyline;
+  traced_ = axis_.polyline;
   BarPrior prior;
   prior.tilt = 1e-3;
   prior.taper = 1e-3;
   const auto fitPiece = [&](std::size_t i) {
     FittedBar bar;
-    bar.origin = traced[i];
-    bar.axis = (traced[std::min(i + 1, traced.size() - 1)] - traced[i > 0 ? i - 1 : 0]).normalized();
+    bar.origin = traced_[i];
+    bar.axis = (traced_[std::min(i + 1, traced_.size() - 1)] - traced_[i > 0 ? i - 1 : 0]).normalized();
     bar.radius = handle.radius;
     gatherPoints(views, bar.origin, std::hypot(kHalfLength, reach));
     keepAlong(bar, kHalfLength, reach);
@@ -231,7 +237,7 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
     return fitted && fitted->radius <= reach ? fitted : std::nullopt;
   };
   radii_.clear();
-  for (std::size_t i = 0; i < traced.size(); ++i) {
+  for (std::size_t i = 0; i < traced_.size(); ++i) {
     if (const auto piece = fitPiece(i)) {
       radii_.push_back(piece->radius);
     }
@@ -240,7 +246,7 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
     handle.radius = median(radii_);
   }
   prior.radius = 1e-4;
-  for (std::size_t i = 0; i < traced.size(); ++i) {
+  for (std::size_t i = 0; i < traced_.size(); ++i) {
     if (const auto piece = fitPiece(i)) {
       axis_.polyline[i] = piece->origin;
     }
@@ -278,7 +284,7 @@ void HandleFinder::rate(const Config& config, GraspHandle& handle) const
   const double support = count / (count + kHalfSupport);
   const double length = std::min(1.0, handle.length / (2.0 * config.shell.clearance_length));
   constexpr double kFullAgreement = 0.3;
-  double product = support * handle.clearance * length * std::min(1.0, handle.agreement / kFullAgreement);
+  double product = support * handle.clearance * length * std::sqrt(std::min(1.0, handle.agreement / kFullAgreement));
   double factors = 4.0;
   if (std::isfinite(handle.observed_free)) {
     product *= std::min(1.0, 2.0 * handle.observed_free);

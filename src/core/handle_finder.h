@@ -22,7 +22,9 @@ namespace grasp_affordances
 ///
 /// The score of a handle is the geometric mean of five numbers in [0, 1]:
 /// - support, n / (n + 5) of n shells;
-/// - agreement: of the samples drawn within it the share that ended as one of its shells, 0.3 or more counting as 1;
+/// - agreement: of the samples drawn within it the share that ended as one of its shells, 0.3 or more counting as 1; of
+/// that
+///   the square root;
 /// - clearance: 1 minus the mean of points in the gap over those that would block it;
 /// - observed free space: twice the mean share of the gaps that the sensor saw through, at most 1; left out without a
 ///   range image;
@@ -38,6 +40,7 @@ public:
             std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles);
 
 private:
+  void addSpare(std::vector<GraspHandle>& handles);
   void describe(const PreparedViews& views, const Config& config, GraspHandle& handle);
   void gatherPoints(const PreparedViews& views, const Eigen::Vector3d& center, double radius);
   void keepAlong(const FittedBar& bar, double half_length, double radius);
@@ -51,9 +54,10 @@ private:
   AxisTracer tracer_;
   SharedAxis axis_;
   Neighborhood neighborhood_;
-  std::vector<Eigen::Vector3d> points_, near_;
-  std::vector<double> radii_;             // m, of the pieces of a bent handle
+  std::vector<double> radii_;  // m, of shells, or of the pieces of a bent handle
+  std::vector<Eigen::Vector3d> points_, near_, traced_;
   std::vector<Eigen::Vector3d> samples_;  // m, in the common frame
+  std::vector<GraspHandle> spare_;        // whose memory will be used again
 };
 
 }  // namespace grasp_affordances

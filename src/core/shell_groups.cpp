@@ -48,12 +48,14 @@ bool shareAxis(const Shell& a, const Shell& b, const HandlesConfig& config)
     return false;
   }
   const bool aligned = std::abs(a.axis.dot(b.axis)) >= std::cos(config.max_angle);
+  const Approach closest = closestApproach(a, a.length / 2, b, b.length / 2);
+  const bool at_ends = isNearEnd(closest.on_a, a) && isNearEnd(closest.on_b, b);
+  if (closest.distance <= config.max_distance && (aligned || at_ends)) {
+    return true;
+  }
   constexpr double kStep = 0.003;  // m
   const bool stepped = std::abs(a.inner_radius - b.inner_radius) > kStep;
-  const double gap = aligned && stepped ? config.max_gap : 0.0;
-  const Approach closest = closestApproach(a, (a.length + gap) / 2, b, (b.length + gap) / 2);
-  if (closest.distance <= config.max_distance &&
-      (aligned || (isNearEnd(closest.on_a, a) && isNearEnd(closest.on_b, b)))) {
+  if (stepped && at_ends && closest.distance <= config.max_gap) {
     return true;
   }
   constexpr double kMostElongated = 2.0;  // lengths over diameters

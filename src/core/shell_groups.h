@@ -13,8 +13,8 @@ namespace grasp_affordances
 /// Whether two shells are about one stretch of one axis, or about stretches of a bent one that follow each other: their
 /// axes come as close as `max_distance` at an angle of at most `max_angle`, or at any angle near an end of each, which
 /// is a corner; and their inner radii differ by little. Where a bar has a step, shells about the slimmer part end
-/// before it: there, and only there, a gap is allowed, since one between equal radii means that something blocks the
-/// bar.
+/// before it: there, and only there, a gap of `max_gap` is allowed, since one between equal radii means that something
+/// blocks the bar.
 ///
 /// Or whether they are about one round thing, an apple, which has no axis of its own: then their middles nearly
 /// coincide and neither is much longer than it is wide.

@@ -127,6 +127,7 @@ void TrackedHandle::average(const GraspHandle& found, const std::vector<const Gr
   approach(handle_.radius, found.radius, weight);
   approach(handle_.inner_radius, found.inner_radius, weight);
   approach(handle_.score, found.score, weight);
+  approach(handle_.agreement, found.agreement, weight);
   approach(handle_.clearance, found.clearance, weight);
   approach(handle_.observed_free, found.observed_free, weight);
   approach(bent_share_, last_.curve.straight() ? 0.0 : 1.0, weight);

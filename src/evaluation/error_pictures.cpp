@@ -58,31 +58,13 @@ std::string millimetres(double metres)
   return std::isfinite(metres) ? std::to_string(std::lround(1000.0 * metres)) + " mm" : "?";
 }
 
-/// The segments of a handle as shells without a gap.
-std::vector<Shell> segments(const GraspHandle& handle)
-{
-  std::vector<Shell> shells;
-  for (std::size_t i = 0; i + 1 < handle.polyline.size(); ++i) {
-    const Eigen::Vector3d along = handle.polyline[i + 1] - handle.polyline[i];
-    Shell shell;
-    shell.centroid = handle.polyline[i] + along / 2;
-    shell.axis = along.normalized();
-    shell.normal = shell.axis.unitOrthogonal();
-    shell.inner_radius = handle.inner_radius;
-    shell.length = along.norm();
-    shells.push_back(shell);
-  }
-  return shells;
-}
-
 void drawHandle(Picture& picture, const GraspHandle& handle, const Color& color)
 {
-  ShellStyle style;
+  BodyStyle style;
   style.color = color;
-  style.gap = false;
-  for (const Shell& segment : segments(handle)) {
-    picture.drawShell(segment, style);
-  }
+  style.fill_opacity = 0.2;
+  style.line_width = 2.0;
+  picture.drawTube(handle.polyline, handle.inner_radius, style);
 }
 
 void save(Picture& picture, const std::string& path, const std::string& caption)

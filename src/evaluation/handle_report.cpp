@@ -66,7 +66,8 @@ void writeHandles(const std::string& path, const Evaluation& evaluation)
 {
   CsvTable table(
       "scene,seed,run,preset,estimator,views,samples,importance,id,verdict,affordance,x,y,z,axis_x,axis_y,axis_z,"
-      "radius,inner_radius,length,polyline_points,support,score,clearance,observed_free,hand_poses,center_error,"
+      "radius,inner_radius,length,polyline_points,support,score,agreement,clearance,observed_free,hand_poses,center_"
+      "error,"
       "axis_error_degrees,radius_error");
   for (const FrameResult& frame : evaluation.frames) {
     for (std::size_t variation = 0; variation < evaluation.variations.size(); ++variation) {
@@ -78,8 +79,9 @@ void writeHandles(const std::string& path, const Evaluation& evaluation)
                        config.sampling.samples, onOrOff(config.sampling.importance), h.id,
                        verdictName(judged.verdict.kind), judged.verdict.affordance, h.centroid.x(), h.centroid.y(),
                        h.centroid.z(), h.axis.x(), h.axis.y(), h.axis.z(), h.radius, h.inner_radius, h.length,
-                       h.polyline.size(), h.shells.size(), h.score, h.clearance, h.observed_free, judged.hand_poses,
-                       judged.errors.center, kDegreesPerRadian * judged.errors.axis, judged.errors.radius);
+                       h.polyline.size(), h.shells.size(), h.score, h.agreement, h.clearance, h.observed_free,
+                       judged.hand_poses, judged.errors.center, kDegreesPerRadian * judged.errors.axis,
+                       judged.errors.radius);
         }
       }
     }

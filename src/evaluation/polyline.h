@@ -1,15 +1,13 @@
 #pragma once
 
+#include "grasp_affordances/handle.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <vector>
 
 namespace grasp_affordances
 {
-
-/// Points joined by straight segments; at least two, of which none is the same as the next.
-using Polyline = std::vector<Eigen::Vector3d>;
 
 /// The place of a polyline that is nearest to a point.
 struct PolylinePlace

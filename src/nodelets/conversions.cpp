@@ -91,6 +91,7 @@ Handle handleMessage(const GraspHandle& handle, const std_msgs::Header& header)
   }
   message.shells = handle.shells;
   message.score = handle.score;
+  message.agreement = handle.agreement;
   message.clearance = handle.clearance;
   message.observed_free = handle.observed_free;
   for (const GraspPose& hand : handle.hand_poses) {

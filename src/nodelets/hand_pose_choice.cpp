@@ -24,16 +24,6 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 
 }  // namespace
 
-Eigen::Isometry3d toolInHand(const HandPosesConfig& config)
-{
-  Eigen::Isometry3d T_hand_tool = Eigen::Isometry3d::Identity();
-  T_hand_tool.translate(Eigen::Vector3d(config.tool_x, config.tool_y, config.tool_z));
-  T_hand_tool.rotate(Eigen::AngleAxisd(config.tool_yaw, Eigen::Vector3d::UnitZ()));
-  T_hand_tool.rotate(Eigen::AngleAxisd(config.tool_pitch, Eigen::Vector3d::UnitY()));
-  T_hand_tool.rotate(Eigen::AngleAxisd(config.tool_roll, Eigen::Vector3d::UnitX()));
-  return T_hand_tool;
-}
-
 HandPoseChoice::Place HandPoseChoice::place(const GraspHandle& handle, std::size_t index,
                                             const Eigen::Isometry3d& T_hand_tool)
 {

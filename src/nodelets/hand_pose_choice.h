@@ -11,9 +11,6 @@
 namespace grasp_affordances
 {
 
-/// The tool's frame in the hand's: T_hand_tool.
-Eigen::Isometry3d toolInHand(const HandPosesConfig& config);
-
 /// Which of a handle's hand poses somebody has chosen. From cloud to cloud poses change their places in the list, as
 /// their scores do, and now and then one is missing: the choice is remembered as a direction of approach and a place
 /// along the handle, and followed. Of one thread.

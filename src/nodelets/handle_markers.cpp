@@ -1,12 +1,12 @@
 #include "nodelets/handle_markers.h"
 
 #include "nodelets/conversions.h"
+#include "nodelets/score_color.h"
 
 #include <visualization_msgs/InteractiveMarkerControl.h>
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MenuEntry.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -147,12 +147,6 @@ void addMenuEntry(InteractiveMarker& marker, HandleMenu id, const std::string& t
 }
 
 }  // namespace
-
-std_msgs::ColorRGBA scoreColor(double score)
-{
-  const double bounded = score > 0.0 ? std::min(score, 1.0) : 0.0;  // 0 also where it is not a number
-  return color(std::min(2.0 - 2.0 * bounded, 1.0), std::min(2.0 * bounded, 1.0), 0.0);
-}
 
 std_msgs::ColorRGBA selectedColor()
 {

@@ -26,19 +26,16 @@ enum class HandleMenu : std::uint32_t
   previous_hand_pose
 };
 
-/// Red for a score of 0 over yellow to green for 1; opaque. Scores outside are taken for the nearest of these.
-std_msgs::ColorRGBA scoreColor(double score);
-
-/// Of the selected handle: blue, which no score has.
+/// Of the selected handle: blue, which no scoreColor() is.
 std_msgs::ColorRGBA selectedColor();
 
 /// Name of a handle's interactive marker.
 std::string handleMarkerName(std::uint32_t id);
 
 /// A handle to click at, with a context menu of HandleMenu: a cylinder of the inner radius along each piece of its
-/// axis, coloured by score or as selected, the id beside it, and a hand, if one is given: its palm, and two fingers as
-/// far apart as its width. The pose is the handle's; everything else is given in the handle's own frame, to a
-/// millimetre: it does not change with the noise of a tracked handle.
+/// axis, coloured by scoreColor() or as selected, the id beside it, and a hand, if one is given: its palm, and two
+/// fingers as far apart as its width. The pose is the handle's; everything else is given in the handle's own frame, to
+/// a millimetre: it does not change with the noise of a tracked handle.
 /// @param hand  of the hand (not of a tool), in the frame of the header
 visualization_msgs::InteractiveMarker handleMarker(const GraspHandle& handle, const std_msgs::Header& header,
                                                    bool selected, const std::optional<GraspPose>& hand,

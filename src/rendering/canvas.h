@@ -1,6 +1,7 @@
 #pragma once
 
 #include "grasp_affordances/cloud.h"
+#include "grasp_affordances/handle.h"
 #include "rendering/color.h"
 #include "rendering/picture_camera.h"
 
@@ -14,8 +15,7 @@
 namespace grasp_affordances
 {
 
-using Polyline = std::vector<Eigen::Vector3d>;  ///< in space: m, in the cloud's frame
-using Polygon = std::vector<Eigen::Vector2d>;   ///< in the picture: pixels
+using Polygon = std::vector<Eigen::Vector2d>;  ///< in the picture: pixels
 
 /// A shaded cloud to draw on with cairo.
 class Canvas

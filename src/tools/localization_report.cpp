@@ -98,6 +98,7 @@ Json handleJson(const GraspHandle& handle, const HandPosesConfig& config)
   }
   json["shells"] = handle.shells;
   json["score"] = handle.score;
+  json["agreement"] = handle.agreement;
   json["clearance"] = handle.clearance;
   json["observed_free"] = handle.observed_free;
   json["hand_poses"] = Json::array();

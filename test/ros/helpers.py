@@ -141,6 +141,15 @@ class Listener:
                 self._arrival.wait(left)
 
 
+def published(name):
+    """The cloud of a simulated scene, as it arrives on the topic points."""
+    with publisher(scene(name)):
+        listener = Listener('points', PointCloud2)
+        message = listener.wait()
+        listener.close()
+    return message
+
+
 def wait_until(condition, what, timeout=20):
     end = time.monotonic() + timeout
     while not condition():

@@ -274,19 +274,5 @@ TEST(LocalizationMarkers, TheWorkspaceIsDrawnInItsFrameWhereItIsALimit)
   EXPECT_TRUE(viewer.shown().empty()) << "deleted when there is no limit any more";
 }
 
-TEST(ScoreColor, GoesFromRedOverYellowToGreen)
-{
-  const auto rgb = [](double score) {
-    const std_msgs::ColorRGBA color = scoreColor(score);
-    EXPECT_EQ(color.a, 1.0F);
-    return std::vector<float>{color.r, color.g, color.b};
-  };
-  EXPECT_EQ(rgb(0.0), (std::vector<float>{1, 0, 0}));
-  EXPECT_EQ(rgb(0.5), (std::vector<float>{1, 1, 0}));
-  EXPECT_EQ(rgb(1.0), (std::vector<float>{0, 1, 0}));
-  EXPECT_EQ(rgb(2.0), rgb(1.0));
-  EXPECT_EQ(rgb(std::nan("")), rgb(0.0));
-}
-
 }  // namespace
 }  // namespace grasp_affordances

@@ -13,8 +13,8 @@ from tf2_msgs.msg import TFMessage
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics, RegionOfInterest
 from grasp_affordances.srv import Localize, LocalizeNext
-from helpers import (ABNORMAL_ENDS, Listener, Process, cloud, coordinates, manager, publisher, scene, serialized,
-                     wait_until)
+from helpers import (ABNORMAL_ENDS, Listener, Process, cloud, coordinates, manager, published, publisher, scene,
+                     serialized, wait_until)
 
 OUTCOMES = ('too_few_points', 'degenerate', 'occluded', 'low_curvature', 'concave', 'no_shell', 'too_short',
             'unobserved_gap', 'uncovered', 'out_of_time', 'shells')
@@ -77,10 +77,7 @@ def vector(message):
 class OnDemand(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        with publisher(scene('table')):
-            listener = Listener('points', PointCloud2)
-            cls.table = listener.wait()
-            listener.close()
+        cls.table = published('table')
         cls.frame = cls.table.header.frame_id
         cls.coordinates = coordinates(cls.table)
 

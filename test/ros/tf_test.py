@@ -14,7 +14,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
-from helpers import Listener, Process, coordinates, publisher, rotated, scene, serialized, wait_until
+from helpers import Listener, Process, coordinates, published, rotated, serialized, wait_until
 
 CAMERA = 'camera_optical'
 OUTPUTS = {'shells': CylindricalShellArray, 'markers': MarkerArray, 'statistics': LocalizationStatistics}
@@ -81,10 +81,7 @@ class Localizer(Process):
 class Tf(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        with publisher(scene('table')):
-            listener = Listener('points', PointCloud2)
-            cls.table = listener.wait()
-            listener.close()
+        cls.table = published('table')
         cls.points = rospy.Publisher('points', PointCloud2, queue_size=1)
         cls.moving = rospy.Publisher('/tf', TFMessage, queue_size=10)
         cls.fixed = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)

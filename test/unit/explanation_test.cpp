@@ -71,7 +71,8 @@ TEST(Explanation, SaysThatShellsAreTooFewForAHandle)
 {
   Localization result = endedIn(Outcome::low_curvature);
   result.shells.resize(2);
-  expectSentence(explainNothing(result, Config()), {"2 shells were", "handles/min_support = 3", "sampling/samples"});
+  expectSentence(explainNothing(result, Config()),
+                 {"2 shells were", "handles/min_support = 3", "handles/min_score = 0.62", "sampling/samples"});
   result.shells.resize(1);
   expectSentence(explainNothing(result, Config()), {"1 shell was"});
 }
@@ -112,7 +113,7 @@ TEST(Explanation, OfAnEmptyTableIsItsFlatness)
 {
   const Localization result = Localizer().localize(captureScene("empty_table", 1).cloud);
   EXPECT_TRUE(result.handles.empty());
-  expectSentence(explainNothing(result, Config()), {"of 4000 samples", "hand/"});
+  expectSentence(explainNothing(result, Config()), {"of 2000 samples", "hand/"});
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(TimeBudget, ATinyOneLeavesSamplesOutAndTheCountsAddUp)
   const Cloud cloud = captureScene("table", 1).cloud;
   for (const int threads : {1, 3}) {
     const Localization result = Localizer(budgetOf(1e-3, threads)).localize(cloud);
-    EXPECT_EQ(result.sampled, 4000U);
+    EXPECT_EQ(result.sampled, 2000U);
     EXPECT_EQ(std::accumulate(result.counts.begin(), result.counts.end(), 0U), result.sampled);
     EXPECT_EQ(outOfTime(result), result.sampled);
     EXPECT_TRUE(result.shells.empty());

@@ -63,7 +63,7 @@ def check_launch(prefix, scratch):
     try:
         shell.answer('bash -c "until rosparam get /localizer/preset; do sleep 0.2; done" 2>/dev/null')
         statistics = shell.answer('rostopic echo -n 1 /localizer/statistics')
-        assert 'sampled: 4000' in statistics, statistics
+        assert 'sampled: 2000' in statistics, statistics
         assert 'shells: 0' not in statistics, statistics
         picked = shell.answer('rosrun grasp_affordances pick_best.py')
         assert picked.startswith('handle '), picked
