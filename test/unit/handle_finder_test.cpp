@@ -371,7 +371,7 @@ TEST(HandleFinder, ScoresAsItsDocumentationSays)
     }
     EXPECT_NEAR(handle.clearance, clearance, 1e-9);
     EXPECT_NEAR(handle.observed_free, observed, 1e-9);
-    const double score = count / (count + 5.0) * std::min(1.0, handle.agreement / 0.3) * clearance *
+    const double score = count / (count + 5.0) * std::sqrt(std::min(1.0, handle.agreement / 0.3)) * clearance *
                          std::min(1.0, 2.0 * observed) *
                          std::min(1.0, handle.length / (2.0 * config.shell.clearance_length));
     EXPECT_NEAR(handle.score, std::pow(score, 0.2), 1e-9);

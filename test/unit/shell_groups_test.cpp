@@ -260,7 +260,8 @@ TEST(ShareAxis, AllowsAGapOnlyWhereABarHasAStep)
   EXPECT_FALSE(shareAxis(slim, after(0.008, 0.01), kConfig)) << "something blocks the bar";
   EXPECT_FALSE(shareAxis(slim, after(0.008, 0.0125), kConfig)) << "a radius is not measured to 3 mm";
   EXPECT_TRUE(shareAxis(slim, after(0.008, 0.0135), kConfig)) << "a step";
-  EXPECT_FALSE(shareAxis(slim, after(kConfig.max_gap + kConfig.max_distance + 1e-4, 0.0135), kConfig)) << "too far";
+  EXPECT_FALSE(shareAxis(slim, after(kConfig.max_gap + 1e-4, 0.0135), kConfig)) << "too far";
+  EXPECT_TRUE(shareAxis(slim, after(kConfig.max_gap - 1e-4, 0.0135), kConfig)) << "the limit";
   EXPECT_TRUE(shareAxis(slim, after(0.0, 0.01), kConfig));
 }
 
