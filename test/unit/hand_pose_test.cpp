@@ -206,6 +206,9 @@ TEST(HandPoses, AreSortedByTheDocumentedScore)
   Localizer localizer(config);
   std::size_t judged = 0;
   for (GraspHandle handle : localizer.localize(cloud).handles) {
+    if (handle.polyline.size() > 2) {
+      continue;  // along a bent handle the axis, and with it the normal, is another one at each place
+    }
     const double length = (handle.polyline.back() - handle.polyline.front()).norm();
     const std::vector<GraspPose> hands = search(cloud, config, handle);
     for (std::size_t i = 0; i < hands.size(); ++i) {
