@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -197,6 +198,24 @@ TEST(HandPoses, FrontOfAFreeBarIsOpenToAHand)
   }
 }
 
+/// Distance (m) along a polyline to where it is nearest to a point.
+double placeAlong(const Polyline& polyline, const Eigen::Vector3d& point)
+{
+  double least = std::numeric_limits<double>::infinity(), place = 0.0, before = 0.0;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    const Eigen::Vector3d step = polyline[i] - polyline[i - 1];
+    const double length = step.norm();
+    const double along = std::clamp((point - polyline[i - 1]).dot(step) / length, 0.0, length);
+    const double distance = (polyline[i - 1] + along / length * step - point).norm();
+    if (distance < least) {
+      least = distance;
+      place = before + along;
+    }
+    before += length;
+  }
+  return place;
+}
+
 TEST(HandPoses, AreSortedByTheDocumentedScore)
 {
   const Cloud cloud = captureScene("table", 1).cloud;
@@ -206,18 +225,18 @@ TEST(HandPoses, AreSortedByTheDocumentedScore)
   Localizer localizer(config);
   std::size_t judged = 0;
   for (GraspHandle handle : localizer.localize(cloud).handles) {
-    if (handle.polyline.size() > 2) {
-      continue;  // along a bent handle the axis, and with it the normal, is another one at each place
-    }
-    const double length = (handle.polyline.back() - handle.polyline.front()).norm();
+    const double length = lengthOf(handle.polyline);
     const std::vector<GraspPose> hands = search(cloud, config, handle);
     for (std::size_t i = 0; i < hands.size(); ++i) {
       const GraspPose& hand = hands[i];
       const double load =
           bruteForceLoad({{&cloud, Pose::Identity()}}, config, hand.pose, std::min(handle.inner_radius, 0.026));
-      const double off = (hand.pose.translation() - handle.centroid).norm() / (length / 2);
+      const double off = std::abs(placeAlong(handle.polyline, hand.pose.translation()) - length / 2) / (length / 2);
+      // Along a bent handle the axis, and with it the normal, is another one at each place.
+      const Eigen::Vector3d axis = hand.pose.linear().col(2);
+      const Eigen::Vector3d normal = (handle.normal - handle.normal.dot(axis) * axis).normalized();
       const double expected =
-          (hand.observed_free + 1 - load * load + (1 - approach(hand).dot(handle.normal)) / 2 + 1 - off) / 4;
+          (hand.observed_free + 1 - load * load + (1 - approach(hand).dot(normal)) / 2 + 1 - off) / 4;
       EXPECT_NEAR(hand.score, expected, 1e-6);
       EXPECT_GE(hand.score, 0.0);
       EXPECT_LE(hand.score, 1.0);
