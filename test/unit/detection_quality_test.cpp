@@ -70,7 +70,7 @@ TEST(DetectionQuality, LocalizerOnThePapersScenes)
   EXPECT_GE(result.found, 0.97 * result.affordances) << result.found << " of " << result.affordances;
   EXPECT_GT(result.affordances, 80);
   EXPECT_GT(result.right, 1000);
-  EXPECT_GE(result.right_handles, 0.98 * (result.right_handles + result.wrong_handles)) << result.wrong_handles;
+  EXPECT_GE(result.right_handles, 0.97 * (result.right_handles + result.wrong_handles)) << result.wrong_handles;
   EXPECT_GE(result.with_one_handle, 0.94 * result.affordances) << result.with_one_handle;
 }
 

@@ -72,7 +72,7 @@ TEST(Explanation, SaysThatShellsAreTooFewForAHandle)
   Localization result = endedIn(Outcome::low_curvature);
   result.shells.resize(2);
   expectSentence(explainNothing(result, Config()),
-                 {"2 shells were", "handles/min_support = 3", "handles/min_score = 0.62", "sampling/samples"});
+                 {"2 shells were", "handles/min_support = 3", "handles/min_score = 0.66", "sampling/samples"});
   result.shells.resize(1);
   expectSentence(explainNothing(result, Config()), {"1 shell was"});
 }
