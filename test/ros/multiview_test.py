@@ -104,14 +104,17 @@ class Multiview(unittest.TestCase):
         self.assertEqual(message.header.frame_id, 'room')
         self.assertEqual(statistics.header.frame_id, 'room')
         expected = self.localize(*self.files[:views])
-        by_point = {shell['point_index']: shell for shell in expected['shells']}
+        # Importance sampling may draw a point twice; its shells then differ, as they have curvatures of their own.
+        by_point = {}
+        for shell in expected['shells']:
+            by_point.setdefault(shell['point_index'], []).append(shell)
         self.assertGreater(len(by_point), 100)
         # Poses took another way: the last bits differ, and with them, rarely, where a sample ends.
         shared = [shell for shell in message.shells if shell.point_index in by_point]
-        self.assertGreater(len(shared), 0.95 * max(len(by_point), len(message.shells)))
+        self.assertGreater(len(shared), 0.95 * max(len(expected['shells']), len(message.shells)))
         for shell in shared:
-            same = by_point[shell.point_index]
             c = shell.centroid
+            same = min(by_point[shell.point_index], key=lambda other: math.dist((c.x, c.y, c.z), other['centroid']))
             self.assertLess(math.dist((c.x, c.y, c.z), same['centroid']), 0.002)
             self.assertAlmostEqual(shell.inner_radius, same['inner_radius'], delta=0.0021)
         self.assertEqual({shell.point_index // POINTS for shell in message.shells}, set(range(views)))
