@@ -226,8 +226,8 @@ class Tracking(unittest.TestCase):
                 if i == 0:
                     first = places
             for id, (x, y, z) in first.items():
-                # Bent axes are averaged point by point along their length, which is measured anew: 10 um.
-                self.assertLess(math.dist(places[id], (x + 0.5, y, z)), 1e-5)
+                # A bent axis is averaged at points along its length: between them a chord leaves the bend by 0.1 mm.
+                self.assertLess(math.dist(places[id], (x + 0.5, y, z)), 1e-4)
 
     def test_a_cloud_without_its_transform_is_dropped(self):
         for parameter in ('fixed_frame', 'approach_frame'):
