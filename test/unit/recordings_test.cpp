@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -33,6 +33,17 @@ Config drawingEvenly()
   return config;
 }
 
+/// @throw std::invalid_argument for a scene that is not in labels.json
+LabelledCloud recordedScene(const std::string& folder, const std::string& scene)
+{
+  for (const EvaluationFrame& frame : recordedFrames(folder + "/mosd/labels.json")) {
+    if (frame.scene == scene) {
+      return frame.load();
+    }
+  }
+  throw std::invalid_argument(scene);
+}
+
 /// Calls visit(seed, verdicts) for the shells of each seed.
 template <typename Visitor>
 void judgeShells(const LabelledCloud& recorded, Visitor&& visit)
@@ -55,11 +66,7 @@ TEST_P(TableTop, HasItsAffordancesFound)
 {
   REQUIRE_RECORDINGS(folder);
   const std::string scene = GetParam();
-  const auto frames = recordedFrames(folder + "/mosd/labels.json");
-  const auto frame =
-      std::find_if(frames.begin(), frames.end(), [&](const EvaluationFrame& other) { return other.scene == scene; });
-  ASSERT_NE(frame, frames.end());
-  const LabelledCloud recorded = frame->load();
+  const LabelledCloud recorded = recordedScene(folder, scene);
   judgeShells(recorded, [&](std::uint64_t seed, const std::vector<Verdict>& verdicts) {
     std::set<std::uint32_t> found;
     for (const Verdict& verdict : verdicts) {
@@ -78,12 +85,7 @@ TEST_P(TableTop, HasItsAffordancesFound)
 TEST_P(TableTop, HasAHandleOnEachAffordanceAndNoOther)
 {
   REQUIRE_RECORDINGS(folder);
-  const std::string scene = GetParam();
-  const auto frames = recordedFrames(folder + "/mosd/labels.json");
-  const auto frame =
-      std::find_if(frames.begin(), frames.end(), [&](const EvaluationFrame& other) { return other.scene == scene; });
-  ASSERT_NE(frame, frames.end());
-  const LabelledCloud recorded = frame->load();
+  const LabelledCloud recorded = recordedScene(folder, GetParam());
   const Judge judge(recorded.cloud, recorded.labels);
   Config config;
   config.hand.capture_radius = recorded.capture_radius;
