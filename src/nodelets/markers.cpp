@@ -155,7 +155,8 @@ Marker handleMarker(const std_msgs::Header& header, const GraspHandle& handle)
       grasp_affordances::marker(header, "handles", static_cast<std::int32_t>(handle.id), Marker::TRIANGLE_LIST);
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
   marker.color = scoreColor(handle.score);
-  addTube(marker, handle.polyline, handle.radius);
+  constexpr double kCover = 0.002;  // m, so that points of the noisy surface do not show through
+  addTube(marker, handle.polyline, handle.radius + kCover);
   return marker;
 }
 

@@ -18,7 +18,7 @@ namespace grasp_affordances
 /// Draws shells and handles for rviz, in these namespaces:
 /// - shells: a translucent cylinder per shell, of its inner radius and length; id: index of the shell
 /// - axes: its axis; the same id. Both are faint where the shell is of a handle
-/// - handles: a tube per handle along its axis, of its surface's radius, coloured by scoreColor(); id: the handle's
+/// - handles: a tube per handle along its axis, 2 mm wider than its surface, coloured by scoreColor(); id: the handle's
 /// - handle_ids: that id as a text beside it; the same id
 /// - hand_poses: a handle's eight best open hands, finger, thumb and palm as lines, the best one bright; the same id
 /// - workspace: the box that samples are drawn in, where it is a limit; id 0

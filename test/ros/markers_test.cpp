@@ -200,7 +200,8 @@ TEST(LocalizationMarkers, AHandleIsAClosedTubeAroundItsAxis)
     area += normal.norm() / 2.0;
   }
   // A prism of 16 sides is a little smaller than the cylinder around it.
-  const double cylinder_volume = M_PI * 0.01 * 0.01 * 0.1, cylinder_area = 2 * M_PI * 0.01 * (0.1 + 0.01);
+  constexpr double kRadius = 0.012;  // the handle's and 2 mm
+  const double cylinder_volume = M_PI * kRadius * kRadius * 0.1, cylinder_area = 2 * M_PI * kRadius * (0.1 + kRadius);
   EXPECT_NEAR(volume / cylinder_volume, 0.975, 0.01);
   EXPECT_NEAR(area / cylinder_area, 0.99, 0.01);
 }

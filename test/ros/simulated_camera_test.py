@@ -168,7 +168,8 @@ class SimulatedCamera(unittest.TestCase):
         return origin
 
     def test_renders_only_while_somebody_listens(self):
-        with camera('lazy', '_scene:=table', '_seed:=1'):
+        # Ten frames a second: those until the end of the connection is noticed are far fewer than those of two seconds.
+        with camera('lazy', '_scene:=table', '_seed:=1', '_rate:=10'):
             wait_until(lambda: advertised('/lazy/depth/points'), 'advertisement')
             time.sleep(1)
             # Frame n has the noise of the seed 1 + n: this is the first one that is rendered.
