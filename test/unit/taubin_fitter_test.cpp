@@ -19,11 +19,13 @@ namespace
 /// Random neighborhoods of a cloud that can be fitted.
 std::vector<Neighborhood> someNeighborhoods(const Cloud& cloud, std::size_t count, std::uint64_t seed)
 {
+  const auto search = makeTreeSearch(cloud);
   std::vector<Neighborhood> neighborhoods;
   for (std::uint64_t draw = 0; neighborhoods.size() < count; ++draw) {
     const std::uint32_t point = randomIndex(randomBits(seed, draw), static_cast<std::uint32_t>(cloud.size()));
     if (cloud.measured(point)) {
-      Neighborhood neighborhood = bruteForceNeighborhood(cloud, cloud.point(point), 0.026F);
+      Neighborhood neighborhood;
+      search->withinRadius(cloud.point(point), 0.026F, neighborhood);
       if (neighborhood.size() >= 10) {
         neighborhoods.push_back(std::move(neighborhood));
       }
