@@ -21,7 +21,7 @@ sensor_msgs::PointCloud2 messageFromPcd(const std::string& file)
   return message;
 }
 
-void publishRepeatedly(ros::Publisher& publisher, sensor_msgs::PointCloud2& message, double rate)
+void publishRepeatedly(const ros::Publisher& publisher, sensor_msgs::PointCloud2& message, double rate)
 {
   ros::Rate pause(rate);
   while (ros::ok()) {
@@ -35,7 +35,7 @@ void publishRepeatedly(ros::Publisher& publisher, sensor_msgs::PointCloud2& mess
 }  // namespace
 
 /// Publishes a PCD file on `points`, stamped with the time of publication.
-/// Parameters: ~file; ~frame_id (camera_depth_optical_frame); ~rate in Hz (10), 0: once, latched.
+/// Parameters: ~file; ~frame_id (camera_depth_optical_frame); ~rate in Hz (10), 0: once to each subscriber.
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "pcd_publisher");
@@ -66,14 +66,14 @@ int main(int argc, char** argv)
   }
   message.header.frame_id = frame_id;
 
-  const bool once = rate == 0.0;
-  ros::Publisher publisher = nh.advertise<sensor_msgs::PointCloud2>("points", 1, once);
-  if (once) {
+  if (rate == 0.0) {
+    // Not latched: roscpp forgets the latched message for a subscriber that connects while it is being published.
     message.header.stamp = ros::Time::now();
-    publisher.publish(message);
+    const auto greet = [&message](const ros::SingleSubscriberPublisher& subscriber) { subscriber.publish(message); };
+    const ros::Publisher publisher = nh.advertise<sensor_msgs::PointCloud2>("points", 1, greet);
     ros::spin();
   } else {
-    publishRepeatedly(publisher, message, rate);
+    publishRepeatedly(nh.advertise<sensor_msgs::PointCloud2>("points", 1), message, rate);
   }
   return 0;
 }

@@ -98,7 +98,7 @@ def manager(environment=None):
 
 
 def publisher(file, rate=0, frame='camera_depth_optical_frame'):
-    """pcd_publisher on the topic points; rate in Hz, 0: once, latched."""
+    """pcd_publisher on the topic points; rate in Hz, 0: once to each subscriber."""
     return Process('grasp_affordances', 'pcd_publisher', '_file:=' + file, '_rate:=%g' % rate, '_frame_id:=' + frame)
 
 
