@@ -7,6 +7,7 @@
 #include <boost/function.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace grasp_affordances
 {
@@ -31,6 +32,9 @@ void HandleSelection::advertise(ros::NodeHandle& private_node_handle, const std:
   const std::string topic = private_node_handle.resolveName(kInteractive);
   interactive_update_ = private_node_handle.advertise<visualization_msgs::InteractiveMarkerUpdate>(
       topic + "/update", 100, changed, changed);
+  if (!interactive_update_) {  // the server of interactive_markers would assert that it can advertise
+    throw std::runtime_error("ROS is shutting down");
+  }
   display_ = std::make_unique<HandleDisplay>(
       topic, [this](std::uint32_t id, std::optional<HandleMenu> entry) { act(id, entry); });
 

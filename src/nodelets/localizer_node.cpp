@@ -1,15 +1,7 @@
-#include <nodelet/loader.h>
-#include <ros/ros.h>
+#include "nodelets/run_nodelet.h"
 
 /// The LocalizerNodelet in a process of its own.
 int main(int argc, char** argv)
 {
-  ros::init(argc, argv, "localizer");
-  const bool provide_ros_api = false;
-  nodelet::Loader loader(provide_ros_api);
-  if (!loader.load(ros::this_node::getName(), "grasp_affordances/LocalizerNodelet", ros::names::getRemappings(), {})) {
-    return 1;
-  }
-  ros::spin();
-  return 0;
+  return grasp_affordances::runNodelet(argc, argv, "localizer", "grasp_affordances/LocalizerNodelet");
 }

@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 """Start, refusal to start, overload and end of the localizer, as a plain node and as a nodelet."""
 
+import os
+import signal
+import time
 import unittest
 
 import rosgraph
@@ -73,6 +76,18 @@ class Lifecycle(unittest.TestCase):
             listener.wait()
             self.check_clean_end(node)
             listener.close()
+
+    def test_node_ends_without_a_crash_when_it_is_interrupted_while_it_starts(self):
+        for step in range(15):
+            with localizer() as node:
+                time.sleep(0.05 * step)  # from before its first line to after its last topic
+                self.assertIn(node.interrupt(), (0, -signal.SIGINT), node.output())
+
+    def test_node_waits_for_a_master_until_it_is_interrupted(self):
+        environment = dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:9')  # where nobody listens
+        with Process('grasp_affordances', 'localizer_node', environment=environment) as node:
+            wait_until(lambda: 'waits for the master at http://127.0.0.1:9' in node.output(), 'a complaint')
+            self.check_clean_end(node)
 
     def test_node_refuses_bad_parameters(self):
         for name, value, text in BAD_PARAMETERS:
