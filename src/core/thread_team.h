@@ -9,11 +9,17 @@
 namespace grasp_affordances
 {
 
-/// A bounded number of threads that share the work on a cloud. The only code that knows of threads.
 #ifdef GRASP_AFFORDANCES_STD_THREADS
-using ThreadTeam = StdTeam;
+using TeamOfThreads = StdTeam;
 #else
-using ThreadTeam = TbbTeam;
+using TeamOfThreads = TbbTeam;
 #endif
+
+/// A bounded number of threads that share the work on a cloud. The only code that knows of threads.
+class ThreadTeam : public TeamOfThreads
+{
+public:
+  using TeamOfThreads::TeamOfThreads;
+};
 
 }  // namespace grasp_affordances
