@@ -2,11 +2,10 @@
 
 #include "simulation/disparity_image.h"
 #include "simulation/infrared_return.h"
+#include "simulation/parallel_rows.h"
 #include "simulation/projector_shadow.h"
 #include "simulation/sensor_noise.h"
 #include "simulation/visible_surfaces.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +38,7 @@ template <typename Task>
 void forEachPixel(const XtionModel& model, Task&& task)
 {
   const auto width = static_cast<int>(model.width);
-  tbb::parallel_for(0, static_cast<int>(model.height), [&](int row) {
+  forEachRow(static_cast<int>(model.height), [&](int row) {
     for (int column = 0; column < width; ++column)
       task(Pixel{column, row}, static_cast<std::size_t>(row) * width + column);
   });
@@ -176,7 +175,7 @@ Frame Xtion::capture(const Scene& scene, const Eigen::Isometry3d& T_scene_camera
     return exactFrame(model_, scene, surfaces, disparity);
 
   std::vector<std::uint8_t> shadowed(surfaces.depth.size());
-  tbb::parallel_for(0, height, [&](int row) {
+  forEachRow(height, [&](int row) {
     findProjectorShadow(disparity.row(row), occluders.row(row), width, &shadowed[disparity.index({0, row})]);
   });
   const std::vector<float> noise = windowedNoise(seed, RandomStream::disparity, model_.width, model_.height,

@@ -1,6 +1,6 @@
 #include "simulation/sensor_noise.h"
 
-#include <tbb/parallel_for.h>
+#include "simulation/parallel_rows.h"
 
 #include <cmath>
 #include <cstddef>
@@ -15,7 +15,7 @@ std::vector<float> windowedNoise(std::uint64_t seed, RandomStream stream, std::u
   const std::uint32_t drawn_width = width + window_width - 1;
   const std::uint32_t drawn_height = height + window_height - 1;
   std::vector<float> row_sums(std::size_t{width} * drawn_height);
-  tbb::parallel_for(std::uint32_t{0}, drawn_height, [&](std::uint32_t row) {
+  forEachRow(drawn_height, [&](std::uint32_t row) {
     std::vector<float> drawn(drawn_width);
     CounterRandom random(seed, stream, row);
     for (float& number : drawn)
@@ -29,7 +29,7 @@ std::vector<float> windowedNoise(std::uint64_t seed, RandomStream stream, std::u
 
   const float scale = std::sqrt(3.0F / static_cast<float>(window_width * window_height));  // uniform: variance 1/3
   std::vector<float> noise(std::size_t{width} * height);
-  tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t row) {
+  forEachRow(height, [&](std::uint32_t row) {
     float* sums = noise.data() + std::size_t{row} * width;
     for (std::uint32_t i = 0; i < window_height; ++i) {
       const float* row_sum = row_sums.data() + std::size_t{row + i} * width;

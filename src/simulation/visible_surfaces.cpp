@@ -1,6 +1,6 @@
 #include "simulation/visible_surfaces.h"
 
-#include <tbb/parallel_for.h>
+#include "simulation/parallel_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -109,7 +109,7 @@ VisibleSurfaces findVisibleSurfaces(const Scene& scene, const Eigen::Isometry3d&
                        T_shape_camera.translation()});
   }
 
-  tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t row) {
+  forEachRow(height, [&](std::uint32_t row) {
     std::vector<double> t(width);
     for (const Target& target : targets) {
       const Span columns = target.outline.columns(row);

@@ -1,6 +1,7 @@
 #include "io/bag.h"
 #include "io/pcd.h"
 #include "support/recordings.h"
+#include "support/sanitizers.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -31,6 +32,7 @@ namespace
 using Json = nlohmann::json;
 
 const float kNan = std::numeric_limits<float>::quiet_NaN();
+const char* const kLimitMemory = GRASP_AFFORDANCES_SANITIZER ? "true" : "ulimit -v 4000000";
 
 std::string content(const std::string& path)
 {
@@ -475,7 +477,7 @@ TEST_F(LocalizeTest, reportsUnreadableInputsInOneLineAndGoesOn)
   };
   for (const std::string& file : bad) {
     SCOPED_TRACE(file);
-    const Call call = localize("--json --samples 100 " + file, "ulimit -v 4000000");
+    const Call call = localize("--json --samples 100 " + file, kLimitMemory);
     EXPECT_EQ(call.status, 1);
     EXPECT_EQ(call.out, "");
     EXPECT_EQ(lines(call.err).size(), 1U) << call.err;

@@ -19,6 +19,9 @@ from sensor_msgs.msg import PointCloud2, PointField
 # Of these speaks the output of a process that did not end well, whatever its exit code.
 ABNORMAL_ENDS = ('boost', 'mutex', 'terminate', 'Assertion', 'rror:')
 
+# What every time-out is multiplied by, as under a sanitizer.
+TIME_FACTOR = int(os.environ.get('GRASP_AFFORDANCES_TIME_FACTOR', 1))
+
 _scenes = None
 
 
@@ -35,7 +38,7 @@ def scene(name):
     path = os.path.join(_scenes, name + '.pcd')
     if not os.path.exists(path):
         subprocess.run([executable('grasp_affordances', 'simulate'), '--scene', name, '--seed', '1', '--out', path],
-                       check=True, stdout=subprocess.DEVNULL, timeout=60)
+                       check=True, stdout=subprocess.DEVNULL, timeout=60 * TIME_FACTOR)
     return path
 
 
@@ -74,7 +77,7 @@ class Process:
 
     def wait(self, timeout):
         try:
-            return self._process.wait(timeout)
+            return self._process.wait(timeout * TIME_FACTOR)
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
@@ -129,6 +132,7 @@ class Listener:
 
     def wait(self, accept=lambda message: True, timeout=20):
         """The first message that is accepted, of those that have arrived or come before the timeout."""
+        timeout *= TIME_FACTOR
         end = time.monotonic() + timeout
         with self._arrival:
             while True:
@@ -151,6 +155,7 @@ def published(name):
 
 
 def wait_until(condition, what, timeout=20):
+    timeout *= TIME_FACTOR
     end = time.monotonic() + timeout
     while not condition():
         if time.monotonic() > end:
