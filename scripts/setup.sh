@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by the scripts that build: installs what is missing, builds what is stale. A script may set its own `build`
 # folder and `configure_options` of cmake after that.
 
@@ -13,8 +14,9 @@ as_root() {
 }
 
 install_packages() {
-  local missing=() package
-  for package in $(grep -v '^#' "$root/scripts/packages"); do
+  local packages missing=() package
+  mapfile -t packages < <(grep '^[^#]' "$root/scripts/packages")
+  for package in "${packages[@]}"; do
     if ! dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed; then
       missing+=("$package")
     fi

@@ -23,7 +23,7 @@ const char* outcomeName(Outcome outcome)
   static constexpr std::array<const char*, kOutcomes> kNames{
       "too_few_points", "degenerate",     "occluded",  "low_curvature", "concave", "no_shell",
       "too_short",      "unobserved_gap", "uncovered", "out_of_time",   "shells"};
-  return kNames[static_cast<std::size_t>(outcome)];
+  return kNames[static_cast<std::size_t>(outcome)];  // cppcheck-suppress CastIntegerToAddressAtReturn; not an integer
 }
 
 }  // namespace grasp_affordances

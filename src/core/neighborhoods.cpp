@@ -54,10 +54,10 @@ public:
   void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override
   {
     k = std::min(k, index_.size());
-    static thread_local std::vector<int> found;
-    static thread_local std::vector<float> squared_distances;
     double radius = kSmallestRadius;
     if (k > 0) {
+      static thread_local std::vector<int> found;
+      static thread_local std::vector<float> squared_distances;
       tree_.nearestKSearch(toPcl(center), static_cast<int>(k), found, squared_distances);
       radius = std::max(radius,
                         kInflation * std::sqrt(*std::max_element(squared_distances.begin(), squared_distances.end())));

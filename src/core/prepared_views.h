@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,8 +84,8 @@ public:
   /// What a shell that is searched in a view's frame has around it.
   ShellSurroundings surroundings(std::size_t view, double spacing) const;
 
-  std::uint32_t measured = 0;  ///< points of all clouds
-  double disagreement;         ///< m, see Localization::view_disagreement
+  std::uint32_t measured = 0;                                      ///< points of all clouds
+  double disagreement = std::numeric_limits<double>::quiet_NaN();  ///< m, see Localization::view_disagreement
   std::vector<std::string> warnings;
 
 private:

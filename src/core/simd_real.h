@@ -26,7 +26,10 @@ struct Real
   hwy::HWY_NAMESPACE::Vec<D> lanes;
 
   Real() = default;
+  // Numbers and lanes are to mix in formulas.
+  // cppcheck-suppress noExplicitConstructor
   HWY_ATTR HWY_INLINE Real(hwy::HWY_NAMESPACE::Vec<D> v) : lanes(v) {}
+  // cppcheck-suppress noExplicitConstructor
   HWY_ATTR HWY_INLINE Real(double v) : lanes(hwy::HWY_NAMESPACE::Set(Real::D(), v)) {}
 };
 using Condition = hwy::HWY_NAMESPACE::Mask<Real::D>;

@@ -148,11 +148,11 @@ struct SmallestEigenvalue
   Real value;
   Condition converged;
 
-  HWY_ATTR HWY_INLINE SmallestEigenvalue(const Tridiagonal& T, Real rounding) : converged(rounding < rounding)
+  HWY_ATTR HWY_INLINE SmallestEigenvalue(const Tridiagonal& T, Real rounding)
+      : value(Real(0.0) - Real(8.0) * rounding), converged(rounding < rounding)
   {
     constexpr int kMostSteps = 24;
     const Real degree = static_cast<double>(kUnknowns);
-    value = Real(0.0) - Real(8.0) * rounding;
     for (int step = 0; step < kMostSteps && !hn::AllTrue(Real::D(), converged); ++step) {
       // Sums over the eigenvalues of 1 / (value - eigenvalue) and of its square: first and second derivative of the
       // logarithm of the characteristic polynomial, which is the product of the pivots.

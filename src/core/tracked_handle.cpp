@@ -43,10 +43,11 @@ void approach(double& value, double found, double weight)
 class Displacements
 {
 public:
-  Displacements(const AxisCurve& from, const AxisCurve& to) : to_(to)
+  Displacements(const AxisCurve& from, const AxisCurve& to)
+      : to_(to),
+        at_front_(to.points().front() - from.at(from.foot(to.points().front()).s)),
+        at_back_(to.points().back() - from.at(from.foot(to.points().back()).s))
   {
-    at_front_ = to.points().front() - from.at(from.foot(to.points().front()).s);
-    at_back_ = to.points().back() - from.at(from.foot(to.points().back()).s);
   }
 
   Eigen::Vector3d operator()(const Eigen::Vector3d& point) const

@@ -17,7 +17,7 @@ constexpr double kRefinement = 0.88;    // of the gate, from one iteration to th
 constexpr double kNearGate = 0.02;      // m
 constexpr std::size_t kMinPairs = 100;  // for a step
 constexpr double kMinSupport = 0.2;     // pairs, of the samples of both views
-constexpr double kClearlyMore = 1.1;   // times as many pairs
+constexpr double kClearlyMore = 1.1;    // times as many pairs
 
 /// Share of the strongest possible constraint below which a direction of motion is left as it is: normals that are off
 /// by 2.5 degrees, as noise makes them, constrain shifts along a plane as much.

@@ -10,11 +10,18 @@ namespace grasp_affordances
 using visualization_msgs::InteractiveMarker;
 using visualization_msgs::InteractiveMarkerFeedback;
 
-HandleDisplay::HandleDisplay(const std::string& topic, Feedback feedback) : feedback_(std::move(feedback))
+namespace
 {
-  const bool thread_of_its_own = true;  // joined before its topics go
-  server_ = std::make_unique<interactive_markers::InteractiveMarkerServer>(topic, "", thread_of_its_own);
-  worker_ = std::make_unique<NewestOnlyWorker<Scene>>([this](const Scene& scene) { draw(scene); });
+
+constexpr bool kThreadOfItsOwn = true;  // joined before the server's topics go
+
+}  // namespace
+
+HandleDisplay::HandleDisplay(const std::string& topic, Feedback feedback)
+    : feedback_(std::move(feedback)),
+      server_(std::make_unique<interactive_markers::InteractiveMarkerServer>(topic, "", kThreadOfItsOwn)),
+      worker_(std::make_unique<NewestOnlyWorker<Scene>>([this](const Scene& scene) { draw(scene); }))
+{
 }
 
 void HandleDisplay::close()

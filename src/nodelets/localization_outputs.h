@@ -67,9 +67,9 @@ public:
   /// Counts a cloud that a transform is missing for, and says which.
   void leaveUntransformed(const std::string& reason);
 
-  /// Counts and publishes a result, of its handles what is known of them after it. `config`: of this cloud, the outputs'
-  /// own parameters among them. `arrival`: when its cloud came in. `header`: of all outputs. `workspace_frame`: that the
-  /// box of `config` is in. `fixed_frame`: that handles are tracked in.
+  /// Counts and publishes a result, of its handles what is known of them after it. `config`: of this cloud, the
+  /// outputs' own parameters among them. `arrival`: when its cloud came in. `header`: of all outputs.
+  /// `workspace_frame`: that the box of `config` is in. `fixed_frame`: that handles are tracked in.
   Messages publish(const Localization& localization, const Config& config, const std_msgs::Header& header,
                    Clock::time_point arrival, const std::string& workspace_frame,
                    const FixedFrame& fixed_frame = FixedFrame());

@@ -13,7 +13,7 @@ void flatten(XmlRpcValue value, const std::string& path, std::map<std::string, X
     flat[path] = value;
     return;
   }
-  for (auto& member : value) {
+  for (const auto& member : value) {
     flatten(member.second, path.empty() ? member.first : path + "/" + member.first, flat);
   }
 }

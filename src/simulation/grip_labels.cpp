@@ -153,7 +153,7 @@ public:
       const std::size_t count = cellCount(along.axis);
       const double length = along.axis.length() / static_cast<double>(count);
       for (std::size_t i = 0; i < count; ++i) {
-        Cell cell;
+        Cell cell{};
         cell.part = along.part;
         cell.index = along.reversed ? count - 1 - i : i;
         cell.from = static_cast<double>(cell.index) * length;

@@ -65,7 +65,7 @@ SurfaceImage throughGlass(VisibleSurfaces visible, const XtionModel& model, std:
       matched.part[i] = -1;
     }
   });
-  return std::move(matched);
+  return std::move(visible.opaque);
 }
 
 /// Depth edges where the matching window puts them.

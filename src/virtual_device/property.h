@@ -10,7 +10,7 @@ namespace grasp_affordances
 
 /// Hands out the value of a property as OpenNI2 passes them: bytes, and the size that the caller expects.
 template <class T>
-OniStatus answerProperty(const T& value, void* data, int* size)
+OniStatus answerProperty(const T& value, void* data, const int* size)
 {
   if (*size != static_cast<int>(sizeof(T)))
     return ONI_STATUS_BAD_PARAMETER;

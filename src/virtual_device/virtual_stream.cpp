@@ -68,7 +68,7 @@ VirtualStream::VirtualStream(const VirtualDevice& device, const OniSensorInfo& s
 
 VirtualStream::~VirtualStream()
 {
-  stop();
+  VirtualStream::stop();
 }
 
 OniStatus VirtualStream::start()

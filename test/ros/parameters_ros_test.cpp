@@ -126,7 +126,7 @@ TEST(MultiCameraParameters, AreRefused)
     parameters["views"] = views;
     EXPECT_TRUE(contains(refusal(), "an integer in [2, 8]")) << views;
   }
-  parameters["views"] = 2;
+  parameters["views"] = 2;  // cppcheck-suppress redundantAssignment; refusal() reads it
   parameters["slop"] = 0.1;
   EXPECT_TRUE(contains(refusal(), "unknown name"));
 }

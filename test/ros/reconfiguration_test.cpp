@@ -87,6 +87,7 @@ private:
     EXPECT_EQ(groups_[name], group) << name;
   }
 
+  // cppcheck-suppress unusedPrivateFunction; descriptions_ is initialized with it
   static std::map<std::string, dynamic_reconfigure::ParamDescription> descriptions()
   {
     std::map<std::string, dynamic_reconfigure::ParamDescription> result;
@@ -96,6 +97,7 @@ private:
     return result;
   }
 
+  // cppcheck-suppress unusedPrivateFunction; groups_ is initialized with it
   static std::map<std::string, std::string> groups()
   {
     std::map<std::string, std::string> result;

@@ -223,8 +223,9 @@ struct Moment
     }
   }
 
-  explicit Moment(const Cloud& cloud, Config config = plainConfig())
-      : Moment(std::vector<PosedCloud>{{&cloud, Pose::Identity()}}, std::move(config))
+  // cppcheck-suppress passedByValue; it is moved
+  explicit Moment(const Cloud& cloud, Config new_config = plainConfig())
+      : Moment(std::vector<PosedCloud>{{&cloud, Pose::Identity()}}, std::move(new_config))
   {
   }
 

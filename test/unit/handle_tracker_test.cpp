@@ -212,7 +212,9 @@ TEST(HandleTracker, KeepsIdsThroughNoiseAndDropoutsAndSmoothsThem)
         raw_places.push_back((found.back().centroid - handle.centroid).x());
       }
     }
-    std::rotate(found.begin(), found.begin() + (found.empty() ? 0 : i % found.size()), found.end());
+    if (!found.empty()) {
+      std::rotate(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(i % found.size()), found.end());
+    }
     const Handles& known = tracker.update(found, kPeriod * i);
     ASSERT_EQ(ids(known), (Ids{1, 2, 3})) << "cloud " << i;
     for (std::size_t k = 0; k < 3 && i > 10; ++k) {

@@ -357,7 +357,6 @@ protected:
 
 TEST_P(EveryEstimator, FindsTheSameWithAnyNumberOfThreadsAndInstructionSet)
 {
-  const Cloud list = unorganized(table());
   Config config = this->config();
   config.threads = 1;
   Localizer reference_localizer(config);
@@ -383,7 +382,7 @@ TEST_P(EveryEstimator, FindsTheSameWithAnyNumberOfThreadsAndInstructionSet)
 
 TEST_P(EveryEstimator, DoesNotDependOnCloudsLocalizedBefore)
 {
-  const Cloud other = captureScene("cleaning2", 1).cloud, list = unorganized(table());
+  const Cloud other = captureScene("cleaning2", 1).cloud;
   const Config config = this->config();
   const Localization fresh = Localizer(config).localize(table());
   Localizer localizer(config);

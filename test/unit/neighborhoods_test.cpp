@@ -33,7 +33,8 @@ std::vector<std::uint32_t> bruteForceNearest(const Cloud& cloud, const Eigen::Ve
     }
   }
   k = std::min(k, order.size());
-  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(k) - 1, order.end());
+  // cppcheck-suppress containerOutOfBounds; k is at most their number
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(k), order.end());
   std::vector<std::uint32_t> nearest;
   for (std::size_t i = 0; i < k; ++i) {
     nearest.push_back(order[i].second);
