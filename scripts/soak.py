@@ -7,10 +7,12 @@ the limits. What runs on the machine besides counts too."""
 
 import argparse
 import collections
+import contextlib
 import math
 import os
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -71,6 +73,25 @@ class Graph:
     def fail(self, message):
         self._output.seek(0)
         sys.exit(self._output.read() + message)
+
+
+class StuckSubscriber:
+    """Subscribes to the markers without a node, and never reads."""
+
+    def __init__(self):
+        uri = rosgraph.Master(rospy.get_name()).lookupNode(MANAGER)
+        topic = '/localizer/markers'
+        _, _, (_, host, port) = xmlrpc.client.ServerProxy(uri).requestTopic('/stuck', topic, [['TCPROS']])
+        fields = [field.encode() for field in ('callerid=/stuck', 'topic=' + topic, 'type=*', 'md5sum=*')]
+        header = b''.join(struct.pack('<I', len(field)) + field for field in fields)
+        self._socket = socket.create_connection((host, port))
+        self._socket.sendall(struct.pack('<I', len(header)) + header)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._socket.close()
 
 
 class Recorder:
@@ -156,11 +177,12 @@ def spread(values):
 def watch(process, seconds):
     """Its memory at every second, its processor time and that of all others, in cores."""
     memory = []
+    print_every = 60 if seconds <= 1200 else 300
     own, all_processes, start = process.processor_time(), machine_processor_time(), time.monotonic()
     for second in range(seconds):
         time.sleep(max(0.0, start + second + 1 - time.monotonic()))
         memory.append(process.memory())
-        if (second + 1) % 60 == 0:
+        if (second + 1) % print_every == 0:
             print('%d min: %.1f MB' % ((second + 1) // 60, memory[-1]), flush=True)
     elapsed = time.monotonic() - start
     own = (process.processor_time() - own) / elapsed
@@ -181,12 +203,13 @@ class Figures:
         self.line(name, '%s; %s: %s' % (text, limit, 'met' if met else 'NOT MET'))
 
 
-def measure(graph, minutes):
+def measure(graph, minutes, stuck_subscriber):
     """Prints the figures of so many minutes; returns whether they are within the limits."""
     with Recorder() as recorder:
         graph.wait(recorder.has_answers, 'no frame was answered')
         try:
-            memory, own, others = watch(manager(), round(60 * minutes))
+            with StuckSubscriber() if stuck_subscriber else contextlib.nullcontext():
+                memory, own, others = watch(manager(), round(60 * minutes))
         except FileNotFoundError:
             graph.fail('the nodelet manager ended')
         answers, sent = recorder.results()
@@ -222,6 +245,7 @@ def report(limits, answers, sent, memory, own, others):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--minutes', type=float, default=LONG, help='to measure, at least 0.5 (default: %(default)g)')
+    parser.add_argument('--stuck-subscriber', action='store_true', help='one more, of the markers, that never reads')
     parser.add_argument('--attempts', type=int, default=1, help='of which one must succeed (default: %(default)d)')
     parser.add_argument('arguments', nargs='*', metavar='ARGUMENT:=VALUE', help='of simulated_camera.launch')
     options = parser.parse_args()
@@ -234,7 +258,7 @@ def main():
     with Graph(['%s:=%s' % item for item in arguments.items()]) as graph:
         graph.wait(rosgraph.is_master_online, 'no ROS master')
         rospy.init_node('soak', disable_signals=True)
-        passed = any(measure(graph, options.minutes) for _ in range(options.attempts))
+        passed = any(measure(graph, options.minutes, options.stuck_subscriber) for _ in range(options.attempts))
         rospy.signal_shutdown('measured')
     sys.exit(0 if passed else 1)
 

@@ -4,11 +4,20 @@
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
 
+#include <functional>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 namespace grasp_affordances
 {
+
+/// A localization was told to end early, see Localizer::cancelWhen().
+class Cancelled : public std::runtime_error
+{
+public:
+  Cancelled() : std::runtime_error("the localization was cancelled") {}
+};
 
 /// Localizes enveloping grasp affordances in point clouds (paper, Algorithm 1).
 ///
@@ -51,6 +60,11 @@ public:
   /// Goes on with other parameters, as a new instance would, but keeps the working memory.
   /// @throw ParameterError for a value outside its range; nothing has changed then.
   void configure(const Config& config);
+
+  /// Lets localize() end early: it throws Cancelled soon after this is true, and its result is then unspecified. The
+  /// function is called from several threads, between pieces of work of some ms, and must not throw. The one piece that
+  /// takes longer, for millions of points, is the preparation of a cloud, with the tree of an unorganized one.
+  void cancelWhen(std::function<bool()> wanted);
 
 private:
   class Implementation;

@@ -76,16 +76,18 @@ double median(std::vector<double>& values)
 }  // namespace
 
 void HandleFinder::find(const PreparedViews& views, const Config& config, const PreparedViews::SamplePoint* samples,
-                        std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles)
+                        std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles,
+                        const Cancellation& cancellation)
 {
   samples_.clear();
   for (std::size_t i = 0; i < sample_count; ++i) {
     const auto& [view, point] = samples[i];
     samples_.push_back(views.T_common_view(view) * views[view].cloud->point(point).cast<double>());
   }
-  groups_.update(shells, config.handles);
+  groups_.update(shells, config.handles, cancellation);
   std::size_t count = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
+    cancellation.check();
     const ShellGroups::Group group = groups_[g];
     if (group.size() < static_cast<std::size_t>(config.handles.min_support)) {
       continue;

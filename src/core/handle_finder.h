@@ -4,6 +4,7 @@
 #include "grasp_affordances/handle.h"
 #include "grasp_affordances/localization.h"
 
+#include "core/cancellation.h"
 #include "core/cylinder_fit.h"
 #include "core/handle_axis.h"
 #include "core/prepared_views.h"
@@ -36,8 +37,10 @@ class HandleFinder
 public:
   /// The handles of the shells of one localization, the best first, without hand poses.
   /// @param samples  all points that samples were drawn at
+  /// @throw Cancelled
   void find(const PreparedViews& views, const Config& config, const PreparedViews::SamplePoint* samples,
-            std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles);
+            std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles,
+            const Cancellation& cancellation = Cancellation());
 
 private:
   void addSpare(std::vector<GraspHandle>& handles);

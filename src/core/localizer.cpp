@@ -1,5 +1,6 @@
 #include "grasp_affordances/localizer.h"
 
+#include "core/cancellation.h"
 #include "core/hand_pose_search.h"
 #include "core/handle_finder.h"
 #include "core/prepared_views.h"
@@ -10,7 +11,9 @@
 #include "core/time_budget.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace grasp_affordances
@@ -37,7 +40,7 @@ public:
   {
     if (config.estimation.estimator == Estimator::normals) {
       Stopwatch stopwatch;
-      views.estimateNormals(config, draw.points() + begin, end - begin, *team);
+      views.estimateNormals(config, draw.points() + begin, end - begin, *team, cancellation);
       result.milliseconds.preparation += stopwatch.lap();
     }
     for (SampleBlock& block : blocks) {
@@ -51,8 +54,9 @@ public:
                       [](SampleResult& sample) { sample.outcome = Outcome::out_of_time; });
         return;
       }
-      blocks[member].examine(views, config, first, last, draw.points() + first, &samples[first]);
+      blocks[member].examine(views, config, first, last, draw.points() + first, &samples[first], cancellation);
     });
+    cancellation.check();
     for (std::size_t i = begin; i < end; ++i) {
       ++result.counts[static_cast<std::size_t>(samples[i].outcome)];
       if (samples[i].outcome == Outcome::shell) {
@@ -69,6 +73,7 @@ public:
   }
 
   Config config;
+  Cancellation cancellation;
   std::optional<ThreadTeam> team;
   std::vector<PosedCloud> single;  // a cloud without others
   PreparedViews views;
@@ -115,6 +120,11 @@ void Localizer::localize(const Cloud& cloud, Localization& result, const Eigen::
   localize(single, result, T_workspace_cloud, T_approach_cloud);
 }
 
+void Localizer::cancelWhen(std::function<bool()> wanted)
+{
+  implementation_->cancellation = Cancellation(std::move(wanted));
+}
+
 /// AffordanceFind (Algorithm 1), and what becomes of its shells.
 void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localization& result,
                          const Eigen::Isometry3d& T_workspace_common, const Eigen::Isometry3d& T_approach_common)
@@ -126,6 +136,7 @@ void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localizati
   result.counts.fill(0);
   result.sampled = 0;
   result.milliseconds = StageTimes();
+  own.cancellation.check();
   own.views.update(posed_clouds, own.config, T_workspace_common, *own.team);
   result.points = own.views.measured;
   result.threads = static_cast<std::uint32_t>(own.team->size());
@@ -133,16 +144,19 @@ void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localizati
   result.view_disagreement = own.views.disagreement;
   result.milliseconds.preparation = stopwatch.lap();
 
+  own.cancellation.check();
   own.draw.start(own.views, own.config);
   for (std::size_t begin = 0; begin < own.draw.size();) {
-    const std::size_t end = own.draw.drawRound(own.views, own.config, own.samples.data(), *own.team);
+    const std::size_t end = own.draw.drawRound(own.views, own.config, own.samples.data(), *own.team, own.cancellation);
     own.examine(begin, end, budget, result);
     begin = end;
   }
   stopwatch.lap();
-  own.handle_finder.find(own.views, own.config, own.draw.points(), own.draw.size(), result.shells, result.handles);
+  own.handle_finder.find(own.views, own.config, own.draw.points(), own.draw.size(), result.shells, result.handles,
+                         own.cancellation);
   result.milliseconds.handles = stopwatch.lap();
   for (GraspHandle& handle : result.handles) {
+    own.cancellation.check();
     own.hand_pose_search.search(own.views, own.config, T_approach_common, handle);
   }
   result.milliseconds.hand_poses = stopwatch.lap();

@@ -305,11 +305,14 @@ std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const SamplePoint& sam
 
 /// Those of all points in the neighborhoods of the samples that are not occluded.
 void PreparedViews::estimateNormals(const Config& config, const SamplePoint* samples, std::size_t count,
-                                    ThreadTeam& team)
+                                    ThreadTeam& team, const Cancellation& cancellation)
 {
   neighborhoods_.resize(2 * team.size());
   spheres_.resize(size() * team.size());
   team.forEach(count, [&](std::size_t i, std::size_t member) {
+    if (cancellation.wanted()) {
+      return;
+    }
     Neighborhood& neighborhood = neighborhoods_[2 * member];
     SphereView* spheres = &spheres_[member * size()];
     const SamplePoint& sample = samples[i];
@@ -320,10 +323,11 @@ void PreparedViews::estimateNormals(const Config& config, const SamplePoint* sam
       });
     }
   });
+  cancellation.check();
   const bool sparse = config.estimation.normals_mode == NormalsMode::sparse;
   for (const View& view : views_) {
     view.cloud->normals.compute(*view.cloud->cloud, *view.cloud->search, config.estimation.normals_radius,
-                                sparse ? SurfaceNormals::kSparseStride : 1, team);
+                                sparse ? SurfaceNormals::kSparseStride : 1, team, cancellation);
   }
 }
 

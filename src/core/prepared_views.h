@@ -5,6 +5,7 @@
 #include "grasp_affordances/neighborhoods.h"
 #include "grasp_affordances/shell.h"
 
+#include "core/cancellation.h"
 #include "core/prepared_cloud.h"
 #include "core/sphere_view.h"
 #include "core/thread_team.h"
@@ -54,7 +55,9 @@ public:
   SamplePoint viewOf(std::uint32_t point) const;
 
   /// Estimates, for the Normals variation, the surface normals that these samples need and that are not known yet.
-  void estimateNormals(const Config& config, const SamplePoint* samples, std::size_t count, ThreadTeam& team);
+  /// @throw Cancelled
+  void estimateNormals(const Config& config, const SamplePoint* samples, std::size_t count, ThreadTeam& team,
+                       const Cancellation& cancellation = Cancellation());
 
   /// Whether all views are range images.
   bool allHaveImages() const;

@@ -64,7 +64,8 @@ void SampleBlock::Remaining::pass(Stage&& stage)
 }
 
 void SampleBlock::examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-                          const PreparedViews::SamplePoint* points, SampleResult* results)
+                          const PreparedViews::SamplePoint* points, SampleResult* results,
+                          const Cancellation& cancellation)
 {
   Remaining all;
   spheres_.resize(kSamples * views.size());
@@ -85,7 +86,7 @@ void SampleBlock::examine(const PreparedViews& views, const Config& config, std:
     look(all, views, config);
     filterOccluded(all, views, config);
   }
-  for (std::size_t first = 0; first < all.size(); first += kFittedAtOnce) {
+  for (std::size_t first = 0; first < all.size() && !cancellation.wanted(); first += kFittedAtOnce) {
     Remaining samples;
     for (std::size_t i = first; i < std::min(first + kFittedAtOnce, all.size()); ++i) {
       all[i].neighborhood = &neighborhoods_[i - first];

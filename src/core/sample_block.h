@@ -7,6 +7,7 @@
 #include "grasp_affordances/quadric.h"
 #include "grasp_affordances/shell.h"
 
+#include "core/cancellation.h"
 #include "core/prepared_views.h"
 
 #include <Eigen/Core>
@@ -35,9 +36,10 @@ public:
   static constexpr std::size_t kSamples = 64;
 
   /// Examines the samples [begin, end), at most kSamples. The first is drawn at points[0], its result goes to
-  /// results[0].
+  /// results[0]. Cancelled, it returns early, with results that are not valid.
   void examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-               const PreparedViews::SamplePoint* points, SampleResult* results);
+               const PreparedViews::SamplePoint* points, SampleResult* results,
+               const Cancellation& cancellation = Cancellation());
 
   StageTimes times;  ///< summed over the samples since it was last reset
 

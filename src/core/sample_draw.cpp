@@ -45,14 +45,14 @@ void SampleDraw::start(const PreparedViews& views, const Config& config)
 }
 
 std::size_t SampleDraw::drawRound(const PreparedViews& views, const Config& config, const SampleResult* results,
-                                  ThreadTeam& team)
+                                  ThreadTeam& team, const Cancellation& cancellation)
 {
   const std::size_t begin = drawn_;
   places_.clear();
   if (begin == 0) {
     drawn_ = first_;
   } else if (begin < size_) {
-    findPlaces(views, config, results);
+    findPlaces(views, config, results, cancellation);
     drawn_ = std::min(size_, begin + (size_ - first_ + kLaterRounds - 1) / kLaterRounds);
     shareOut(static_cast<std::size_t>((1.0 - config.sampling.uniform_share) * static_cast<double>(drawn_ - begin)));
   }
@@ -74,10 +74,12 @@ std::size_t SampleDraw::drawRound(const PreparedViews& views, const Config& conf
 }
 
 /// Of the samples drawn so far.
-void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, const SampleResult* results)
+void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, const SampleResult* results,
+                            const Cancellation& cancellation)
 {
   const double reach = config.hand.capture_radius;
   for (std::size_t i = 0; i < drawn_; ++i) {
+    cancellation.check();
     place_of_[i] = kNoPlace;
     if (!promising(results[i].outcome)) {
       continue;

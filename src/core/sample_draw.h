@@ -3,6 +3,7 @@
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/neighborhoods.h"
 
+#include "core/cancellation.h"
 #include "core/prepared_views.h"
 #include "core/sample_block.h"
 #include "core/thread_team.h"
@@ -36,8 +37,9 @@ public:
 
   /// Draws the next round. @param results  of the samples of the rounds before
   /// @return the number of samples drawn by then: the same as before where all rounds are over
-  std::size_t drawRound(const PreparedViews& views, const Config& config, const SampleResult* results,
-                        ThreadTeam& team);
+  /// @throw Cancelled
+  std::size_t drawRound(const PreparedViews& views, const Config& config, const SampleResult* results, ThreadTeam& team,
+                        const Cancellation& cancellation = Cancellation());
 
   const PreparedViews::SamplePoint* points() const { return points_.data(); }
 
@@ -52,7 +54,8 @@ private:
     std::uint32_t draws;     // that go to this place and those before it
   };
 
-  void findPlaces(const PreparedViews& views, const Config& config, const SampleResult* results);
+  void findPlaces(const PreparedViews& views, const Config& config, const SampleResult* results,
+                  const Cancellation& cancellation);
   void shareOut(std::size_t draws);
   PreparedViews::SamplePoint drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
                                       std::uint32_t draw, Neighborhood& around) const;

@@ -74,7 +74,8 @@ std::uint32_t ShellGroups::rootOf(std::uint32_t shell)
   return shell;
 }
 
-void ShellGroups::update(const std::vector<Shell>& shells, const HandlesConfig& config)
+void ShellGroups::update(const std::vector<Shell>& shells, const HandlesConfig& config,
+                         const Cancellation& cancellation)
 {
   const auto count = static_cast<std::uint32_t>(shells.size());
   parents_.resize(count);
@@ -91,6 +92,7 @@ void ShellGroups::update(const std::vector<Shell>& shells, const HandlesConfig& 
   }
   const auto reach = static_cast<float>(1.01 * (longest + config.max_gap + config.max_distance));
   for (std::uint32_t i = 0; i < count; ++i) {
+    cancellation.check();
     for (std::uint32_t j = 0; j < i; ++j) {
       const float dx = x_[i] - x_[j], dy = y_[i] - y_[j], dz = z_[i] - z_[j];
       if (dx * dx + dy * dy + dz * dz > reach * reach) {

@@ -3,6 +3,8 @@
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
 
+#include "core/cancellation.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,7 +43,9 @@ public:
   };
 
   /// Groups the shells; the group of the first shell comes first.
-  void update(const std::vector<Shell>& shells, const HandlesConfig& config);
+  /// @throw Cancelled
+  void update(const std::vector<Shell>& shells, const HandlesConfig& config,
+              const Cancellation& cancellation = Cancellation());
 
   std::size_t size() const { return begins_.size() - 1; }
   Group operator[](std::size_t group) const

@@ -42,20 +42,22 @@ void SurfaceNormals::listRequired(const Cloud& cloud, std::size_t stride)
 }
 
 void SurfaceNormals::compute(const Cloud& cloud, const NeighborhoodSearch& search, double radius, std::size_t stride,
-                             ThreadTeam& team)
+                             ThreadTeam& team, const Cancellation& cancellation)
 {
   listRequired(cloud, stride);
   neighborhoods_.resize(team.size());
   constexpr std::size_t kBatch = 16;
   team.forEach((points_.size() + kBatch - 1) / kBatch, [&](std::size_t batch, std::size_t member) {
     Neighborhood& neighborhood = neighborhoods_[member];
-    for (std::size_t i = batch * kBatch; i < std::min(points_.size(), (batch + 1) * kBatch); ++i) {
+    for (std::size_t i = batch * kBatch; i < std::min(points_.size(), (batch + 1) * kBatch) && !cancellation.wanted();
+         ++i) {
       search.withinRadius(cloud.point(points_[i]), static_cast<float>(radius), neighborhood);
       if (const auto normal = planeNormal(neighborhood)) {
         normals_.set(points_[i], *normal);
       }
     }
   });
+  cancellation.check();
 }
 
 }  // namespace grasp_affordances

@@ -4,6 +4,7 @@
 #include "grasp_affordances/neighborhoods.h"
 #include "grasp_affordances/normals.h"
 
+#include "core/cancellation.h"
 #include "core/thread_team.h"
 
 #include <atomic>
@@ -32,8 +33,9 @@ public:
   /// point.
   /// @param stride 1 for all points that were asked for; otherwise those of every stride-th row and column, where the
   /// cloud is not organized of every stride^2-th point.
+  /// @throw Cancelled
   void compute(const Cloud& cloud, const NeighborhoodSearch& search, double radius, std::size_t stride,
-               ThreadTeam& team);
+               ThreadTeam& team, const Cancellation& cancellation = Cancellation());
 
   /// NaN for points that have none.
   const Normals& normals() const { return normals_; }

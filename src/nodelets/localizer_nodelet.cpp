@@ -26,6 +26,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <exception>
@@ -79,8 +80,9 @@ class LocalizerNodelet : public nodelet::Nodelet
 public:
   ~LocalizerNodelet() override
   {
-    // In this order: no more clouds come in, and nobody waits; services end; then the last cloud is finished while its
+    // In this order: no more clouds come in, and nobody waits; services end; then the last cloud is given up while its
     // publishers still exist.
+    ending_ = true;
     outputs_.close();
     if (transforms_) {  // it started
       transforms_->close();
@@ -119,6 +121,7 @@ private:
   std_msgs::Header localize(const std_msgs::Header& cloud_header, const Config& config, const RegionOfInterest& region,
                             Workplace& at);
   Eigen::Isometry3d transform(const std::string& frame, const std_msgs::Header& header, Transforms::Deadline deadline);
+  std::unique_ptr<Workplace> workplace(const Config& config) const;
 
   NodeParameters parameters_;
   LocalizationOutputs outputs_;
@@ -132,6 +135,7 @@ private:
   Throttle reported_jumps_;
   std::optional<RateLimiter> rate_limiter_;
 
+  std::atomic<bool> ending_{false};
   std::unique_ptr<Workplace> own_place_;      // of the worker's thread
   std::unique_ptr<Workplace> service_place_;  // of the thread of ~localize, from its first call on
 
@@ -147,7 +151,7 @@ void LocalizerNodelet::onInit()
   ros::NodeHandle& private_nh = getPrivateNodeHandle();
   try {
     parameters_ = nodeParameters(private_nh);
-    own_place_ = std::make_unique<Workplace>(Workplace{Localizer(parameters_.config), {}, {}});
+    own_place_ = workplace(parameters_.config);
   } catch (const ParameterError& error) {
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
@@ -217,6 +221,8 @@ void LocalizerNodelet::process(const Arrival& arrival)
   } catch (const tf2::TransformException& error) {
     outputs_.leaveUntransformed(error.what());
     next_cloud_.fail(error.what());
+  } catch (const Cancelled& error) {
+    next_cloud_.fail(error.what());
   } catch (const std::exception& error) {  // CloudError, or no memory for what a cloud asks for
     outputs_.reject(error.what());
     next_cloud_.fail(error.what());
@@ -246,7 +252,7 @@ void LocalizerNodelet::answer(const Localize::Request& request, Localize::Respon
   const LocalizationOutputs::Clock::time_point start = LocalizationOutputs::Clock::now();
   const Config config = withRegion(reconfiguration_.config(), request.region);
   if (!service_place_) {
-    service_place_ = std::make_unique<Workplace>(Workplace{Localizer(config), {}, {}});
+    service_place_ = workplace(config);
   }
   cloudFromPointCloud2(request.cloud, service_place_->cloud);
   service_place_->cloud.intrinsics = intrinsicsOfCall(request.camera_info, service_place_->cloud);
@@ -256,6 +262,14 @@ void LocalizerNodelet::answer(const Localize::Request& request, Localize::Respon
   response.handles = handlesMessage(localization.handles, header).handles;
   response.statistics = statisticsMessage(localization, config, header);
   response.statistics.milliseconds_latency = milliseconds(LocalizationOutputs::Clock::now() - start);
+}
+
+/// One whose work is given up when the node ends, of which ROS tells nobody who waits for a service.
+std::unique_ptr<LocalizerNodelet::Workplace> LocalizerNodelet::workplace(const Config& config) const
+{
+  auto result = std::make_unique<Workplace>(Workplace{Localizer(config), {}, {}});
+  result->localizer.cancelWhen([this] { return ending_ || ros::isShuttingDown(); });
+  return result;
 }
 
 /// In the cloud at a workplace. Returns the header of what is found.

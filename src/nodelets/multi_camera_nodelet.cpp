@@ -24,6 +24,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -58,8 +59,9 @@ class MultiCameraNodelet : public nodelet::Nodelet
 public:
   ~MultiCameraNodelet() override
   {
-    // In this order: no more clouds come in, and nobody waits; services end; then the last clouds are finished while
+    // In this order: no more clouds come in, and nobody waits; services end; then the last clouds are given up while
     // their publishers still exist.
+    ending_ = true;
     outputs_.close();
     if (transforms_) {  // it started
       transforms_->close();
@@ -116,6 +118,8 @@ private:
   Throttle reported_jumps_;
   std::optional<RateLimiter> rate_limiter_;
 
+  std::atomic<bool> ending_{false};
+
   // Of the worker's thread.
   std::unique_ptr<Localizer> localizer_;
   std::vector<PosedCloud> posed_clouds_;
@@ -133,6 +137,7 @@ void MultiCameraNodelet::onInit()
   try {
     parameters_ = multiCameraParameters(private_nh);
     localizer_ = std::make_unique<Localizer>(parameters_.node.config);
+    localizer_->cancelWhen([this] { return ending_ || ros::isShuttingDown(); });
   } catch (const ParameterError& error) {
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
@@ -256,6 +261,8 @@ void MultiCameraNodelet::process(const Arrival& arrival)
     localize(arrival, call);
   } catch (const tf2::TransformException& error) {
     outputs_.leaveUntransformed(error.what());
+    next_cloud_.fail(error.what());
+  } catch (const Cancelled& error) {
     next_cloud_.fail(error.what());
   } catch (const std::exception& error) {  // CloudError, or no memory for what a cloud asks for
     outputs_.reject(error.what());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace grasp_affordances
 {
@@ -33,9 +34,10 @@ void copyRows(const RawImage& image, bool mirrored, Pixel* pixels)
 
 bool isIntact(const RawImage& image, const ImageLayout& layout)
 {
-  return image.data != nullptr && image.width == layout.width && image.height == layout.height &&
-         image.format == layout.format && image.stride >= image.width * bytesPerPixel(image.format) &&
-         image.bytes == image.stride * image.height;
+  constexpr std::size_t kLargest = std::numeric_limits<int>::max();  // beyond it a device meant a negative number
+  return image.stride <= kLargest && image.bytes <= kLargest && image.data != nullptr && image.width == layout.width &&
+         image.height == layout.height && image.format == layout.format &&
+         image.stride >= image.width * bytesPerPixel(image.format) && image.bytes == image.stride * image.height;
 }
 
 void depthMillimetres(const RawImage& image, const ImageLayout& layout, const DepthCorrection& correction,

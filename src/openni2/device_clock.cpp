@@ -7,16 +7,17 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr std::int64_t kWindow = 5'000'000'000;  // ns, of which the smallest offset counts
+constexpr std::int64_t kWindow = 5'000'000'000;           // ns, of which the smallest offset counts
+constexpr std::uint64_t kLatest = 4'000'000'000'000'000;  // us: what is later is none, and would overflow
 
 }  // namespace
 
 std::int64_t DeviceClock::hostTime(std::uint64_t device_us, std::int64_t arrival_ns)
 {
-  const std::int64_t device_ns = 1000 * static_cast<std::int64_t>(device_us);
-  const bool device_went_back = last_device_ns_ && device_ns < *last_device_ns_;
+  const std::int64_t device_ns = 1000 * static_cast<std::int64_t>(std::min(device_us, kLatest));
+  const bool device_went_on = !last_device_ns_ || device_ns > *last_device_ns_;
   const bool host_went_back = last_arrival_ns_ && arrival_ns < *last_arrival_ns_;
-  if (device_went_back || host_went_back) {
+  if (!device_went_on || host_went_back) {
     offsets_.clear();
   }
   if (host_went_back) {

@@ -15,8 +15,8 @@ namespace grasp_affordances
 /// last seconds: a frame that the bus or the scheduler held up does not move it, and drift stays below 5 us per ppm.
 ///
 /// The times told grow strictly, by at least a nanosecond, and are never later than the arrival, unless arrivals are
-/// that close together. A device clock that goes back, as where a recording begins again, starts a new estimate. Where
-/// the host's own clock is set back, the times follow it. Not safe to use from several threads.
+/// that close together. A device clock that goes back, as where a recording begins again, or stands still starts a new
+/// estimate. Where the host's own clock is set back, the times follow it. Not safe to use from several threads.
 class DeviceClock
 {
 public:

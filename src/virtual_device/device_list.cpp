@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 namespace grasp_affordances
 {
@@ -17,15 +18,18 @@ constexpr std::uint64_t kMostFrames = 1000;
 
 VirtualDeviceState deviceState(const std::string& word)
 {
-  if (word == "plugged")
-    return VirtualDeviceState::plugged;
-  if (word == "unplugged")
-    return VirtualDeviceState::unplugged;
-  if (word == "stalled")
-    return VirtualDeviceState::stalled;
-  if (word == "corrupt")
-    return VirtualDeviceState::corrupt;
-  throw std::invalid_argument("state is '" + word + "'; it must be one of plugged, unplugged, stalled, corrupt");
+  using State = VirtualDeviceState;
+  static constexpr std::pair<const char*, State> states[] = {
+      {"plugged", State::plugged},     {"unplugged", State::unplugged}, {"stalled", State::stalled},
+      {"corrupt", State::corrupt},     {"misshapen", State::misshapen}, {"garbled", State::garbled},
+      {"backwards", State::backwards}, {"vanishing", State::vanishing}};
+  std::string words;
+  for (const auto& [known, state] : states) {
+    if (word == known)
+      return state;
+    words += std::string(words.empty() ? "" : ", ") + known;
+  }
+  throw std::invalid_argument("state is '" + word + "'; it must be one of " + words);
 }
 
 void checkScene(const std::string& name)

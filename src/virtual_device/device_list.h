@@ -12,8 +12,12 @@ enum class VirtualDeviceState
 {
   plugged,
   unplugged,
-  stalled,  ///< plugged, but sends no frames
-  corrupt   ///< plugged, but sends incomplete frames, as after losses on the USB
+  stalled,    ///< plugged, but sends no frames
+  corrupt,    ///< plugged, but sends incomplete frames, as after losses on the USB
+  misshapen,  ///< plugged, but its frames say sizes that are not those of their mode: none, negative, huge ones
+  garbled,    ///< plugged, but half of each depth image is of another frame, with depths that are none in between
+  backwards,  ///< plugged, but its clock jumps back and forth, and stands still
+  vanishing   ///< pulled out in the middle of its fifth frame, and plugged in again at once; and so on
 };
 
 /// What a virtual device shows.

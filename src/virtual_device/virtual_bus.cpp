@@ -95,15 +95,17 @@ void VirtualBus::update()
     complain("cannot be read");
     return;
   }
-  if (list == last_list_)
+  if (list == last_list_) {
+    plugVanished();
     return;
+  }
   last_list_ = *list;
   try {
-    const std::vector<VirtualDeviceSettings> devices = parseDeviceList(*list);
+    devices_ = parseDeviceList(*list);
     last_complaint_.clear();
-    for (const std::string& uri : missing(devices))
-      unplug(uri);
-    for (const VirtualDeviceSettings& settings : devices)
+    for (const std::string& uri : missing(devices_))
+      unplug(uri, infos_.at(uri));
+    for (const VirtualDeviceSettings& settings : devices_)
       apply(settings);
   } catch (const std::exception& error) {
     complain(error.what());
@@ -133,9 +135,17 @@ void VirtualBus::apply(const VirtualDeviceSettings& settings)
     return;
   }
   if (camera)
-    unplug(settings.uri);
+    unplug(settings.uri, infos_.at(settings.uri));
   if (wanted)
     plug(settings);
+}
+
+void VirtualBus::plugVanished()
+{
+  for (const VirtualDeviceSettings& settings : devices_) {
+    if (settings.state == VirtualDeviceState::vanishing && !find(settings.uri))
+      plug(settings);
+  }
 }
 
 std::shared_ptr<const RenderedFrames> VirtualBus::framesOf(const VirtualScene& scene)
@@ -149,26 +159,32 @@ std::shared_ptr<const RenderedFrames> VirtualBus::framesOf(const VirtualScene& s
 
 void VirtualBus::plug(const VirtualDeviceSettings& settings)
 {
-  const std::shared_ptr<const RenderedFrames> frames = framesOf(settings.scene);
+  const OniDeviceInfo& info = infos_.emplace(settings.uri, deviceInfo(settings.uri)).first->second;
+  const auto camera = std::make_shared<PluggedCamera>(settings, framesOf(settings.scene));
+  camera->pull = [bus = weak_from_this(), uri = settings.uri, &info] {
+    if (const auto self = bus.lock())
+      self->unplug(uri, info);
+  };
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (stopping_)
       return;
-    plugged_[settings.uri] = std::make_shared<PluggedCamera>(settings, frames);
+    plugged_[settings.uri] = camera;
   }
-  connected_(infos_.emplace(settings.uri, deviceInfo(settings.uri)).first->second);
+  connected_(info);
 }
 
-void VirtualBus::unplug(const std::string& uri)
+void VirtualBus::unplug(const std::string& uri, const OniDeviceInfo& info)
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (stopping_)
+    const auto camera = plugged_.find(uri);
+    if (stopping_ || camera == plugged_.end())  // it vanished at this very moment
       return;
-    plugged_.at(uri)->state = VirtualDeviceState::unplugged;
-    plugged_.erase(uri);
+    camera->second->state = VirtualDeviceState::unplugged;
+    plugged_.erase(camera);
   }
-  disconnected_(infos_.at(uri));
+  disconnected_(info);
 }
 
 void VirtualBus::complain(const std::string& message)

@@ -25,6 +25,7 @@ struct PluggedCamera
   VirtualDeviceSettings settings;  ///< but for the state
   std::atomic<VirtualDeviceState> state;
   std::shared_ptr<const RenderedFrames> frames;
+  std::function<void()> pull;  ///< unplugs it; from any thread, once
 
   PluggedCamera(const VirtualDeviceSettings& camera_settings, std::shared_ptr<const RenderedFrames> camera_frames)
       : settings(camera_settings), state(camera_settings.state), frames(std::move(camera_frames))
@@ -58,9 +59,10 @@ private:
   void update();
   std::vector<std::string> missing(const std::vector<VirtualDeviceSettings>& devices) const;
   void apply(const VirtualDeviceSettings& settings);
+  void plugVanished();
   std::shared_ptr<const RenderedFrames> framesOf(const VirtualScene& scene);
   void plug(const VirtualDeviceSettings& settings);
-  void unplug(const std::string& uri);
+  void unplug(const std::string& uri, const OniDeviceInfo& info);
   void complain(const std::string& message);
 
   const std::string list_file_;
@@ -69,6 +71,7 @@ private:
 
   // Of the thread that updates.
   std::string last_list_;
+  std::vector<VirtualDeviceSettings> devices_;  // of that list
   std::string last_complaint_;
   std::map<std::string, OniDeviceInfo> infos_;  // OpenNI keeps pointers to them: none is ever erased
   std::vector<std::shared_ptr<const RenderedFrames>> frames_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <ratio>
 
 namespace grasp_affordances
@@ -20,6 +21,8 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr int kMaxDepth = 10000;  // mm, as an Xtion reports
 constexpr int kMaxColor = 255;
+constexpr int kLargest = std::numeric_limits<int>::max();
+constexpr int kVanishingFrame = 5;
 
 bool equal(const OniVideoMode& a, const OniVideoMode& b)
 {
@@ -56,6 +59,70 @@ void tear(OniFrame& frame)
       break;
     default:
       frame.dataSize = 0;
+  }
+}
+
+/// Sizes, in turn, that are not those of a frame's mode. The last one, two negative sizes, fits together.
+void misshape(OniFrame& frame)
+{
+  switch (frame.frameIndex % 8) {
+    case 0:
+      frame.width *= 2;
+      break;
+    case 1:
+      frame.height = kLargest;
+      break;
+    case 2:
+      frame.width = frame.height = frame.stride = frame.dataSize = 0;
+      break;
+    case 3:
+      frame.dataSize = kLargest;
+      break;
+    case 4:
+      frame.stride = frame.width - 1;
+      frame.dataSize = frame.height * frame.stride;
+      break;
+    case 5:
+      frame.height = -frame.height;
+      frame.dataSize = -frame.dataSize;
+      break;
+    case 6:
+      frame.videoMode.pixelFormat = ONI_PIXEL_FORMAT_GRAY16;
+      break;
+    default:
+      frame.stride = -frame.stride;
+      frame.dataSize = -frame.dataSize;
+  }
+}
+
+/// Puts the lower half of another depth image below a frame's own, and between them rows that end in depths beyond all
+/// that a device measures.
+void garble(OniFrame& frame)
+{
+  auto* pixels = static_cast<OniDepthPixel*>(frame.data);
+  const int half = frame.height / 2 * frame.width;
+  std::reverse(pixels + half, pixels + 2 * half);
+  for (int i = half - 8 * frame.width; i < half; ++i)
+    pixels[i] = i % 3 == 0 ? 0xFFFF : static_cast<OniDepthPixel>(i % 3);
+}
+
+/// A clock that goes well, stands still, jumps back, forth, to its beginning and to its end.
+std::uint64_t wrongTime(int frame_index, std::uint64_t time)
+{
+  constexpr std::uint64_t kSecond = 1'000'000;  // us
+  switch (frame_index / 4 % 6) {
+    case 0:
+      return time;
+    case 1:
+      return 40 * kSecond;
+    case 2:
+      return time / 2;
+    case 3:
+      return time + 3600 * kSecond;
+    case 4:
+      return 0;
+    default:
+      return std::numeric_limits<std::uint64_t>::max() - 1'000'000 + time % 1'000'000;
   }
 }
 
@@ -171,22 +238,41 @@ void VirtualStream::run()
       return;
     lock.unlock();  // OpenNI may ask for properties while it takes the frame
     const VirtualDeviceState state = device_.camera().state;
-    if (device_.camera().frames->ready() &&
-        (state == VirtualDeviceState::plugged || state == VirtualDeviceState::corrupt))
-      send(static_cast<int>(next.count()), state == VirtualDeviceState::corrupt);
+    if (device_.camera().frames->ready() && state != VirtualDeviceState::unplugged &&
+        state != VirtualDeviceState::stalled)
+      send(static_cast<int>(next.count()), state);
     last = next;
     lock.lock();
   }
 }
 
-void VirtualStream::send(int frame_index, bool torn)
+void VirtualStream::send(int frame_index, VirtualDeviceState state)
 {
   OniFrame* frame = getServices().acquireFrame();
   if (frame == nullptr)
     return;
   fill(*frame, frame_index);
-  if (torn)
-    tear(*frame);
+  switch (state) {
+    case VirtualDeviceState::corrupt:
+      tear(*frame);
+      break;
+    case VirtualDeviceState::misshapen:
+      misshape(*frame);
+      break;
+    case VirtualDeviceState::garbled:
+      if (sensor_.sensorType == ONI_SENSOR_DEPTH)
+        garble(*frame);
+      break;
+    case VirtualDeviceState::backwards:
+      frame->timestamp = wrongTime(frame_index, frame->timestamp);
+      break;
+    case VirtualDeviceState::vanishing:
+      if (sensor_.sensorType == ONI_SENSOR_DEPTH && ++sent_ == kVanishingFrame)
+        device_.camera().pull();
+      break;
+    default:
+      break;
+  }
   raiseNewFrame(frame);
   getServices().releaseFrame(frame);
 }

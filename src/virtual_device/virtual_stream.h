@@ -1,5 +1,7 @@
 #pragma once
 
+#include "virtual_device/device_list.h"
+
 #include <Driver/OniDriverAPI.h>
 
 #include <condition_variable>
@@ -32,11 +34,12 @@ public:
 private:
   OniStatus setVideoMode(const OniVideoMode& mode);
   void run();
-  void send(int frame_index, bool torn);
+  void send(int frame_index, VirtualDeviceState state);
   void fill(OniFrame& frame, int frame_index);
 
   const VirtualDevice& device_;
   const OniSensorInfo& sensor_;
+  int sent_ = 0;  // of a device that vanishes; of the thread
 
   std::mutex mutex_;  // of what follows
   OniVideoMode mode_;

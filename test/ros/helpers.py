@@ -1,6 +1,7 @@
 """What the rostests share: processes, simulated scenes, clouds made by hand, and what arrives on topics."""
 
 import atexit
+import collections
 import io
 import os
 import shutil
@@ -14,6 +15,7 @@ import time
 import rosgraph
 import roslib.packages
 import rospy
+from nodelet.srv import NodeletLoad, NodeletUnload
 from sensor_msgs.msg import PointCloud2, PointField
 
 # Of these speaks the output of a process that did not end well, whatever its exit code.
@@ -69,10 +71,17 @@ class Process:
     def __exit__(self, *_):
         self.interrupt()
 
+    @property
+    def pid(self):
+        return self._process.pid
+
+    def signal(self, number):
+        self._process.send_signal(number)
+
     def interrupt(self):
         """Ends the process as Ctrl-C does; returns its exit code."""
         if self._process.poll() is None:
-            self._process.send_signal(signal.SIGINT)
+            self.signal(signal.SIGINT)
         return self.wait(15)
 
     def wait(self, timeout):
@@ -88,6 +97,13 @@ class Process:
         return self._output.read().decode()
 
 
+class Program(Process):
+    """Any program in a process of its own, found as a shell finds it."""
+
+    def __init__(self, *command, environment=None):
+        self._start(list(command), environment)
+
+
 class Launch(Process):
     """One of our launch files."""
 
@@ -98,6 +114,42 @@ class Launch(Process):
 def manager(environment=None):
     """A nodelet manager of that name."""
     return Process('nodelet', 'nodelet', 'manager', '__name:=manager', environment=environment)
+
+
+class Nodelets:
+    """Loads nodelets of ours into the manager of manager() and unloads them, without a process that stands for each."""
+
+    def __init__(self):
+        self._load, self._unload = (rospy.ServiceProxy('manager/' + name, kind) for name, kind in
+                                    (('load_nodelet', NodeletLoad), ('unload_nodelet', NodeletUnload)))
+        for call in (self._load, self._unload):
+            call.wait_for_service(20)
+
+    def load(self, name, kind, remappings=()):
+        """`remappings`: pairs of names."""
+        sources, targets = zip(*remappings) if remappings else ((), ())
+        self._load(name=name, type='grasp_affordances/' + kind, remap_source_args=sources, remap_target_args=targets)
+
+    def unload(self, name):
+        self._unload(name=name)
+
+
+Usage = collections.namedtuple('Usage', 'memory threads files')  # MB, resident; numbers of threads and open files
+
+
+def usage(process):
+    """What a process takes of the machine."""
+    with open('/proc/%d/status' % process.pid) as file:
+        status = dict(line.split(':', 1) for line in file)
+    return Usage(int(status['VmRSS'].split()[0]) / 1024, int(status['Threads']),
+                 len(os.listdir('/proc/%d/fd' % process.pid)))
+
+
+def processor_time(process):
+    """Of all its threads, in seconds."""
+    with open('/proc/%d/stat' % process.pid) as file:
+        user, system = file.read().rpartition(')')[2].split()[11:13]
+    return (int(user) + int(system)) / os.sysconf('SC_CLK_TCK')
 
 
 def publisher(file, rate=0, frame='camera_depth_optical_frame'):

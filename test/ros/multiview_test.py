@@ -7,6 +7,7 @@ import math
 import os
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 
@@ -17,6 +18,7 @@ from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
+from grasp_affordances.srv import LocalizeNext
 from helpers import ABNORMAL_ENDS, Launch, Listener, Process, executable, publisher, wait_until
 
 TURNS = (0, 60, -60)  # degrees, of the cameras about the table
@@ -178,6 +180,66 @@ class Multiview(unittest.TestCase):
             self.assertEqual(node.interrupt(), 0)
             for sign in ABNORMAL_ENDS:
                 self.assertNotIn(sign, node.output())
+
+    def trigger(self, timeout):
+        """A call that waits for a set of clouds, in another thread; returns how to get its answer."""
+        rospy.wait_for_service('multi_camera/trigger', 20)
+        answers = []
+        thread = threading.Thread(target=lambda: answers.append(
+            rospy.ServiceProxy('multi_camera/trigger', LocalizeNext)(timeout=timeout)), daemon=True)
+        thread.start()
+
+        def answer():
+            thread.join(20)
+            return answers[0]
+        return answer
+
+    def test_trigger_on_demand(self):
+        with MultiCamera(2, '_target_frame:=room', '_on_demand:=true', '_sampling/samples:=1000') as node:
+            silent = self.trigger(timeout=0.3)()
+            self.assertFalse(silent.success)
+            self.assertIn('no set of clouds arrived within 0.3 s', silent.message)
+            # Though somebody listens, it subscribes only while it is asked.
+            self.assertFalse(any(p.get_num_connections() for p in self.publishers))
+            for processed in (1, 2):
+                answer = self.trigger(timeout=20)
+                self.connect(2)
+                stamp = self.publish(range(2), rospy.Time.now())
+                found = answer()
+                self.assertTrue(found.success, found.message)
+                self.assertEqual(found.statistics.header.stamp, stamp)
+                self.assertEqual(found.statistics.clouds_processed, processed)
+                self.assertEqual({shell.point_index // POINTS for shell in found.shells}, {0, 1})
+                published = node.shells.wait(lambda m: m.header.stamp == stamp)
+                self.assertEqual(len(published.shells), len(found.shells))
+                wait_until(lambda: not any(p.get_num_connections() for p in self.publishers), 'end of the subscription')
+            self.assertEqual(node.interrupt(), 0, node.output())
+            for sign in ABNORMAL_ENDS:
+                self.assertNotIn(sign, node.output())
+
+    def test_max_rate(self):
+        stopping = threading.Event()
+
+        def publish():
+            while not stopping.wait(0.2):
+                self.publish(range(2), rospy.Time.now())
+
+        camera = threading.Thread(target=publish, daemon=True)
+        with MultiCamera(2, '_target_frame:=room', '_max_rate:=1', '_sampling/samples:=100') as node:
+            self.connect(2)
+            camera.start()
+            first = node.statistics.wait()
+            last = node.statistics.wait(lambda m: m.clouds_processed == first.clouds_processed + 2)
+            # On average, whatever one set was late by.
+            self.assertGreater((last.header.stamp - first.header.stamp).to_sec(), 2 / 1 - 0.5)
+            self.assertGreater(last.clouds_left_out, 2)
+            # Who asks does not wait for the rate.
+            start = time.monotonic()
+            for _ in range(4):
+                self.assertTrue(self.trigger(timeout=20)().success)
+            self.assertLess(time.monotonic() - start, 4 / 1)
+            stopping.set()
+            camera.join(20)
 
     def test_needs_a_target_frame(self):
         with MultiCamera(2) as node:

@@ -1,14 +1,25 @@
 #!/usr/bin/python3
-"""What the driver makes of devices that are pulled out, missing, stalled, or send corrupt frames."""
+"""What the driver makes of devices that are pulled out, missing, stalled, or send corrupt frames.
+~vanishings: how often a device is pulled out in the middle of a frame."""
 
+import math
 import unittest
 
 import rospy
 import rostest
 from sensor_msgs.msg import Image
 
-from helpers import ABNORMAL_ENDS, Listener
-from virtual_devices import Diagnostics, VirtualDevices, device, value
+from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
+from helpers import ABNORMAL_ENDS, Listener, wait_until
+from virtual_devices import Diagnostics, VirtualDevices, device, openni2_path, pixels, value
+
+NO_DEPTH = 0xFFFF   # of a garbled frame: beyond all that a device measures
+WRONG_SIZES = 8     # kinds of them, which come in turn
+TIME_FAULTS = 2 * 24  # frames, in which all kinds come twice
+
+
+def vector(message):
+    return message.x, message.y, message.z
 
 
 class SensorFaults(unittest.TestCase):
@@ -87,13 +98,13 @@ class SensorFaults(unittest.TestCase):
             self.check_end(driver)
         diagnostics.close()
 
-    def test_corrupt_frames_are_skipped_and_counted(self):
-        diagnostics = Diagnostics('corrupt')
-        with VirtualDevices(device(state='corrupt')) as devices, devices.driver('corrupt') as driver:
-            images = Listener('corrupt/depth/image_raw', Image)
+    def check_bad_frames_are_skipped_and_counted(self, state, least):
+        diagnostics = Diagnostics(state)
+        with VirtualDevices(device(state=state)) as devices, devices.driver(state) as driver:
+            images = Listener(state + '/depth/image_raw', Image)
 
             def counts(status):
-                return int(value(status, 'depth corrupt frames')) > 10
+                return int(value(status, 'depth corrupt frames')) > least
 
             _, status = diagnostics.wait('connected', accept=counts)
             self.assertEqual(status.level, status.WARN)
@@ -106,6 +117,67 @@ class SensorFaults(unittest.TestCase):
             images.close()
             self.check_end(driver)
         diagnostics.close()
+
+    def test_corrupt_frames_are_skipped_and_counted(self):
+        self.check_bad_frames_are_skipped_and_counted('corrupt', 10)
+
+    def test_frames_of_wrong_sizes_are_skipped_and_counted(self):
+        self.check_bad_frames_are_skipped_and_counted('misshapen', 2 * WRONG_SIZES)
+
+    def test_half_old_frames_and_depths_that_are_none_are_localized_in(self):
+        with VirtualDevices(device(state='garbled')) as devices, \
+                devices.launch('xtion.launch', 'camera:=garbled', 'openni2_path:=' + openni2_path()) as graph:
+            images = Listener('garbled/depth/image_raw', Image)
+            image = images.wait()
+            self.assertGreater((pixels(image) == NO_DEPTH).sum(), 1000)
+            images.close()
+            shells = Listener('localizer/shells', CylindricalShellArray)
+            statistics = Listener('localizer/statistics', LocalizationStatistics)
+            last = statistics.wait(lambda m: m.clouds_processed > 10)
+            self.assertEqual(last.clouds_rejected, 0)
+            self.assertGreater(last.points, 1000)
+            for message in shells.messages():
+                for shell in message.shells:
+                    self.assertTrue(all(map(math.isfinite, (*vector(shell.centroid), *vector(shell.axis)))), shell)
+            for listener in (shells, statistics):
+                listener.close()
+            self.assertEqual(graph.interrupt(), 0, graph.output())
+
+    def test_stamps_ascend_whatever_the_device_says_of_the_time(self):
+        with VirtualDevices(device(state='backwards')) as devices, devices.driver('backwards') as driver:
+            images = Listener('backwards/depth/image_raw', Image)
+            images.wait(lambda _: len(images.messages()) > TIME_FAULTS)
+            images.close()
+            arrivals = images.arrivals()
+            stamps = [image.header.stamp for image, _ in arrivals]
+            self.assertEqual(stamps, sorted(set(stamps)))
+            for image, arrival in arrivals:
+                age = (arrival - image.header.stamp).to_sec()
+                self.assertLess(abs(age), 1, stamps)  # what a busy machine takes from node to node
+            self.check_end(driver)
+
+    def test_device_that_vanishes_in_the_middle_of_a_frame_again_and_again(self):
+        vanishings = rospy.get_param('~vanishings')
+        with VirtualDevices(device(state='vanishing')) as devices, devices.driver('vanishing') as driver:
+            images = Listener('vanishing/depth/image_raw', Image)
+            wait_until(lambda: driver.output().count('was disconnected') >= vanishings, 'vanishing', 20 + 2 * vanishings)
+            plugged = rospy.Time.now()
+            devices.write(device())
+            images.wait(lambda image: image.header.stamp > plugged)
+            images.close()
+            stamps = [image.header.stamp for image in images.messages()]
+            self.assertEqual(stamps, sorted(set(stamps)))
+            self.assertGreaterEqual(len(stamps), vanishings)
+            self.check_end(driver)
+
+    def test_node_ends_while_its_device_vanishes(self):
+        with VirtualDevices(device(state='vanishing')) as devices:
+            for i in range(3):
+                with devices.driver('ends') as driver:
+                    images = Listener('ends/depth/image_raw', Image)
+                    wait_until(lambda: driver.output().count('was disconnected') >= i, 'vanishing')
+                    images.close()
+                    self.check_end(driver)
 
 
 if __name__ == '__main__':

@@ -83,7 +83,7 @@ TEST(DepthImage, TornPicturesAreNoticed)
   const RawImage whole = rawImage(raw, 3, 2, layout.format, 6);
   EXPECT_TRUE(isIntact(whole, layout));
 
-  std::vector<RawImage> torn(7, whole);
+  std::vector<RawImage> torn(9, whole);
   torn[0].data = nullptr;
   torn[1].bytes = 11;
   torn[2].bytes = 14;
@@ -92,6 +92,10 @@ TEST(DepthImage, TornPicturesAreNoticed)
   torn[5].stride = 4;
   torn[5].bytes = 8;
   torn[6].format = openni::PIXEL_FORMAT_DEPTH_100_UM;
+  torn[7].stride = -whole.stride;  // as a device says them that gives a negative number of bytes
+  torn[7].bytes = -whole.bytes;
+  torn[8].height = -2;
+  torn[8].bytes = -whole.bytes;
   for (const RawImage& image : torn) {
     EXPECT_FALSE(isIntact(image, layout)) << &image - torn.data();
   }

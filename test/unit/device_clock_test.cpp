@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <random>
 
 namespace grasp_affordances
@@ -144,6 +145,28 @@ TEST(DeviceClock, FollowsAHostClockThatIsSetBackAtOnce)
   clock.hostTime(0, kStart);
   EXPECT_EQ(clock.hostTime(33'333, kStart - 100 * kSecond), kStart - 100 * kSecond);
   EXPECT_EQ(clock.hostTime(66'666, kStart - 99 * kSecond), kStart - 100 * kSecond + 33'333 * kMicrosecond);
+}
+
+TEST(DeviceClock, GoesOnWhereTheDevicesClockStands)
+{
+  DeviceClock clock;
+  clock.hostTime(40'000'000, kStart);
+  for (int i = 1; i < 300; ++i) {
+    ASSERT_EQ(clock.hostTime(40'000'000, kStart + i * kPeriod), kStart + i * kPeriod);
+  }
+}
+
+TEST(DeviceClock, TimesOfTheDeviceThatAreNoneAreTakenLikeAnyOther)
+{
+  DeviceClock clock;
+  std::int64_t arrival = kStart;
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max();
+  for (const std::uint64_t device_us :
+       {std::uint64_t{1'000'000}, kLargest, kLargest - 1, kLargest / 2, kLargest / 2 + 1, kLargest / 1000,
+        std::uint64_t{0}, kLargest / 2000, kLargest / 4, std::uint64_t{33'333}}) {
+    arrival += kPeriod;
+    ASSERT_EQ(clock.hostTime(device_us, arrival), arrival) << device_us;
+  }
 }
 
 TEST(DeviceClock, FollowsAHostClockThatIsSetForwardInSeconds)

@@ -1,0 +1,127 @@
+#!/usr/bin/python3
+"""Nodelets that are loaded and unloaded again and again while clouds flow, and what becomes of manager, loader and
+nodelet when one of them is killed. ~cycles: how often the localizer is loaded."""
+
+import signal
+import time
+import unittest
+
+import rospy
+import rostest
+from bond.msg import Status
+from sensor_msgs.msg import Image, PointCloud2
+
+from grasp_affordances.msg import LocalizationStatistics
+from helpers import ABNORMAL_ENDS, Listener, Nodelets, Process, manager, publisher, scene, usage, wait_until
+from virtual_devices import VirtualDevices, device
+
+OTHER_CYCLES = 10
+WARM_UP = 5        # cycles: what pluginlib, TBB and the allocator keep for good
+BOND_TIMEOUT = 4   # s, bond's
+SLACK = 5          # s, of a busy machine
+
+
+def loader():
+    return Process('nodelet', 'nodelet', 'load', 'grasp_affordances/LocalizerNodelet', 'manager', '__name:=localizer')
+
+
+def advertised():
+    return 'localizer/statistics' in str(rospy.get_published_topics())
+
+
+class Reload(unittest.TestCase):
+    def tearDown(self):
+        for name in ('localizer', 'multi_camera', 'simulated', 'camera'):
+            if rospy.has_param(name):
+                rospy.delete_param(name)
+
+    def check_clean_end(self, process):
+        start = time.monotonic()
+        self.assertEqual(process.interrupt(), 0, process.output())
+        self.assertLess(time.monotonic() - start, 2 + SLACK)
+        for sign in ABNORMAL_ENDS:
+            self.assertNotIn(sign, process.output())
+
+    def check_cycles(self, host, cycles, megabytes, name, kind, output, output_type, remappings=()):
+        """Loads a nodelet so often, each time until it has published something new, and unloads it. Of memory, threads
+        and open files nothing is lost."""
+        nodelets = Nodelets()
+        longest = 0.0
+        for cycle in range(cycles):
+            if cycle == WARM_UP:
+                before = usage(host)
+            listener = Listener(output, output_type)
+            nodelets.load(name, kind, remappings)
+            listener.wait()
+            start = time.monotonic()
+            nodelets.unload(name)
+            longest = max(longest, time.monotonic() - start)
+            listener.close()
+        self.assertLess(longest, 2 + SLACK)
+        # Connections end when their other ends are told.
+        wait_until(lambda: usage(host).files <= before.files and usage(host).threads <= before.threads,
+                   'end of threads and connections: %s, now %s' % (before, usage(host)))
+        rospy.loginfo('%s, %d cycles: %s, then %s; the longest unloading took %.3f s', kind, cycles, before, usage(host),
+                      longest)
+        self.assertLess(usage(host).memory - before.memory, megabytes)
+
+    def test_localizer(self):
+        cycles = rospy.get_param('~cycles')
+        with publisher(scene('table'), rate=30), manager() as host:
+            rospy.set_param('localizer', {'lazy': False})
+            self.check_cycles(host, cycles, 40, '/localizer', 'LocalizerNodelet', 'localizer/statistics',
+                              LocalizationStatistics)
+            self.check_clean_end(host)
+
+    def test_several_cameras(self):
+        with publisher(scene('table'), rate=30), manager() as host:
+            rospy.set_param('multi_camera', {'target_frame': 'camera_depth_optical_frame', 'sync_slop': 1.0})
+            self.check_cycles(host, OTHER_CYCLES, 40, '/multi_camera', 'MultiCameraNodelet', 'multi_camera/statistics',
+                              LocalizationStatistics, (('/points_1', '/points'), ('/points_2', '/points')))
+            self.check_clean_end(host)
+
+    def test_simulated_camera(self):
+        with manager() as host:
+            self.check_cycles(host, OTHER_CYCLES, 40, '/simulated/camera', 'SimulatedCameraNodelet',
+                              'simulated/depth/points', PointCloud2)
+            self.check_clean_end(host)
+
+    def test_driver(self):
+        with VirtualDevices(device()) as devices, manager(devices.environment) as host:
+            self.check_cycles(host, OTHER_CYCLES, 40, '/camera/driver', 'XtionNodelet', 'camera/depth/image_raw', Image)
+            self.check_clean_end(host)
+
+    def check_answers(self):
+        listener = Listener('localizer/statistics', LocalizationStatistics)
+        listener.wait()
+        listener.close()
+
+    def wait_for_bond(self):
+        """Until both ends of the bond say that they hear each other."""
+        ends = Listener('manager/bond', Status)
+        wait_until(lambda: len({status.instance_id for status in ends.messages() if status.active}) == 2, 'bond')
+        ends.close()
+
+    def test_manager_is_killed_and_the_loader_ends(self):
+        with publisher(scene('table'), rate=10), manager() as host, loader() as load:
+            self.check_answers()
+            self.wait_for_bond()
+            host.signal(signal.SIGKILL)
+            self.assertEqual(load.wait(BOND_TIMEOUT + SLACK), 0, load.output())
+
+    def test_loader_is_killed_and_the_manager_unloads_its_nodelet_and_lives_on(self):
+        with publisher(scene('table'), rate=10), manager() as host:
+            with loader() as load:
+                self.check_answers()
+                self.wait_for_bond()
+                load.signal(signal.SIGKILL)
+                wait_until(lambda: not advertised(), 'unloading', BOND_TIMEOUT + SLACK)
+            with loader() as load:
+                self.check_answers()
+                self.assertEqual(load.interrupt(), 0, load.output())
+            self.check_clean_end(host)
+
+
+if __name__ == '__main__':
+    rospy.init_node('reload_test')
+    rostest.rosrun('grasp_affordances', 'reload', Reload)
