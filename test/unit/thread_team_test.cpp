@@ -19,7 +19,11 @@ class ThreadTeams : public testing::Test
 {
 };
 
+#ifdef GRASP_AFFORDANCES_STD_THREADS
+using Teams = testing::Types<StdTeam>;  // TBB is what ThreadSanitizer does not understand
+#else
 using Teams = testing::Types<StdTeam, TbbTeam>;
+#endif
 TYPED_TEST_SUITE(ThreadTeams, Teams, );
 
 TYPED_TEST(ThreadTeams, EveryIndexComesExactlyOnce)
@@ -44,7 +48,7 @@ TYPED_TEST(ThreadTeams, NoTwoCallsAtATimeHaveTheSameMember)
   std::vector<std::atomic<bool>> busy(team.size());
   std::vector<int> calls(team.size());  // not atomic: for ThreadSanitizer
   std::atomic<int> shared{0};
-  for (int repetition = 0; repetition < 20; ++repetition) {
+  for (int repetition = 0; repetition < 5; ++repetition) {
     team.forEach(500, [&](std::size_t /*i*/, std::size_t member) {
       ASSERT_LT(member, busy.size());
       shared += busy[member].exchange(true) ? 1 : 0;
@@ -58,7 +62,7 @@ TYPED_TEST(ThreadTeams, NoTwoCallsAtATimeHaveTheSameMember)
   for (const int count : calls) {
     sum += count;
   }
-  EXPECT_EQ(sum, 20 * 500);
+  EXPECT_EQ(sum, 5 * 500);
 }
 
 TYPED_TEST(ThreadTeams, OneMemberIsTheCallersThread)
