@@ -17,6 +17,7 @@ from virtual_devices import VirtualDevices, device
 
 OTHER_CYCLES = 10
 WARM_UP = 5        # cycles: what pluginlib, TBB and the allocator keep for good
+MASTER_THREADS = 3
 BOND_TIMEOUT = 4   # s, bond's
 SLACK = 5          # s, of a busy machine
 
@@ -58,8 +59,9 @@ class Reload(unittest.TestCase):
             longest = max(longest, time.monotonic() - start)
             listener.close()
         self.assertLess(longest, 2 + SLACK)
-        # Connections end when their other ends are told.
-        wait_until(lambda: usage(host).files <= before.files and usage(host).threads <= before.threads,
+        # Connections end when their other ends are told. The master may keep some, to tell of publishers.
+        wait_until(lambda: usage(host).files <= before.files + MASTER_THREADS and
+                   usage(host).threads <= before.threads,
                    'end of threads and connections: %s, now %s' % (before, usage(host)))
         rospy.loginfo('%s, %d cycles: %s, then %s; the longest unloading took %.3f s', kind, cycles, before, usage(host),
                       longest)
