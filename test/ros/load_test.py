@@ -23,7 +23,8 @@ OUTPUTS = ('shells', 'handles', 'hand_poses', 'markers', 'statistics', 'selected
            'handles_interactive/update')
 READERS = 9
 WARM_UP = 0.3    # share of the time: until everything that is kept has its size
-TRANSPORT = 0.5  # s from node to node, on a machine with more to do than it has cores
+SLACK = 0.5      # s, of a machine with more to do than it has cores
+BIG_TRANSPORT = 2.0  # s that 16 MB take from a node in Python to another node, there
 SMALL = 4096     # bytes, of a receive buffer
 
 
@@ -106,7 +107,7 @@ class Load(unittest.TestCase):
             if rospy.has_param(name):
                 rospy.delete_param(name)
 
-    def measure(self, process, node, period, megabytes):
+    def measure(self, process, node, period, megabytes, transport=0.0):
         """While the node is under load: it answers to the end, with the newest clouds, and its memory is flat."""
         seconds = rospy.get_param('~seconds')
         answers = Listener('localizer/statistics', LocalizationStatistics)
@@ -124,7 +125,7 @@ class Load(unittest.TestCase):
             answers.wait(lambda m: m.header.stamp > end, timeout=20)
             read = list(subscribers.read)
         answers.close()
-        self.check_newest_only(arrivals, period)
+        self.check_newest_only(arrivals, period + transport)
         rospy.loginfo('%d answers, %d clouds received, memory %.1f to %.1f MB, %s markers read', len(arrivals),
                       arrivals[-1][0].clouds_received - arrivals[0][0].clouds_received, min(memory), max(memory), read)
         self.assertLess(max(memory) - min(memory), megabytes)
@@ -141,10 +142,11 @@ class Load(unittest.TestCase):
             self.assertEqual(message.clouds_rejected, 0)
         for (earlier, _), (message, arrival) in zip(arrivals, arrivals[1:]):
             self.assertGreater(message.header.stamp, earlier.header.stamp)
-            # A cloud waits for the localization before it at most, and is at most a period older than its arrival.
+            # A cloud waits for the localization before it at most, and came at most a period before that ended, or was
+            # replaced by one that did.
             work = (earlier.milliseconds_total + message.milliseconds_total) / 1e3
-            self.assertLess((arrival - message.header.stamp).to_sec(), work + period + TRANSPORT)
-            self.assertLess(message.milliseconds_latency / 1e3, work + TRANSPORT)
+            self.assertLess((arrival - message.header.stamp).to_sec(), work + period + SLACK)
+            self.assertLess(message.milliseconds_latency / 1e3, work + SLACK)
 
     def check_clean_end(self, process):
         self.assertEqual(process.interrupt(), 0, process.output())
@@ -171,7 +173,7 @@ class Load(unittest.TestCase):
             megabytes = len(clouds.message.data) / 1e6
             with BusyCores():
                 # Clouds that are received, wait or are worked on come and go.
-                self.measure(node, '/localizer', 1 / 30, 4 * megabytes)
+                self.measure(node, '/localizer', 1 / 30, 4 * megabytes, BIG_TRANSPORT)
                 self.check_clean_end(node)
 
 

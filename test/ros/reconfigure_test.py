@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Parameters that change at run time, of the localizer and of the one with several cameras."""
 
+import threading
 import unittest
 
 import rospy
@@ -11,7 +12,7 @@ from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import PointCloud2
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
-from helpers import ABNORMAL_ENDS, Listener, Process, coordinates, publisher, scene
+from helpers import ABNORMAL_ENDS, Listener, Process, coordinates, publisher, scene, serialized
 
 TIMEOUT = 20
 
@@ -75,6 +76,62 @@ class Reconfigure(unittest.TestCase):
             self.assertIn('No handle', changed.explanation)
             shells.close()
             statistics.close()
+
+    def test_changes_during_frames(self):
+        """What is published for a cloud is what one configuration gives, whenever it changes."""
+        configurations = ({'sampling_samples': 3000, 'estimation_estimator': 'taubin', 'hand_capture_radius': 0.026,
+                           'shell_min_length': 0.03},
+                          {'sampling_samples': 5000, 'estimation_estimator': 'pca', 'hand_capture_radius': 0.035,
+                           'shell_min_length': 0.05})
+        with localizer() as node, publisher(scene('table'), rate=20):
+            tuner = client()
+            shells = Listener('localizer/shells', CylindricalShellArray)
+            statistics = Listener('localizer/statistics', LocalizationStatistics)
+
+            def outcome(message):
+                """Of a frame, but for times and the numbers of clouds."""
+                return (message.sampled, message.estimator, message.shells, message.handles, message.no_shell,
+                        message.too_short)
+
+            def results(count):
+                """Both, of so many of the clouds that come from now on."""
+                start = rospy.Time.now()
+
+                def answers():
+                    return [m for m in statistics.messages() if m.header.stamp > start]
+                statistics.wait(lambda _: len(answers()) >= count, timeout=60)
+                found = []
+                for answer in answers()[:count]:
+                    message = shells.wait(lambda m: m.header.stamp == answer.header.stamp)
+                    found.append((outcome(answer), [serialized(shell) for shell in message.shells]))
+                return found
+
+            expected = []
+            for configuration in configurations:
+                tuner.update_configuration(configuration)
+                results(2)  # the first of them may have begun before
+                expected.append(results(1)[-1])
+            self.assertNotEqual(expected[0], expected[1])
+            stopping = threading.Event()
+
+            def change():
+                while not stopping.is_set():
+                    for configuration in configurations:
+                        tuner.update_configuration(configuration)
+
+            changer = threading.Thread(target=change, daemon=True)
+            changer.start()
+            mixed = results(30)
+            stopping.set()
+            changer.join(20)
+            for result in mixed:
+                self.assertIn(result, expected)
+            self.assertEqual([result in mixed for result in expected], [True, True])
+            for listener in (shells, statistics):
+                listener.close()
+            self.assertEqual(node.interrupt(), 0, node.output())
+            for sign in ABNORMAL_ENDS:
+                self.assertNotIn(sign, node.output())
 
     def test_region(self):
         with localizer(), publisher(scene('table'), rate=5):

@@ -17,6 +17,7 @@ from virtual_devices import VirtualDevices, device
 
 OTHER_CYCLES = 10
 WARM_UP = 5        # cycles: what pluginlib, TBB and the allocator keep for good
+MASTER_THREADS = 3
 BOND_TIMEOUT = 4   # s, bond's
 SLACK = 5          # s, of a busy machine
 
@@ -47,9 +48,11 @@ class Reload(unittest.TestCase):
         and open files nothing is lost."""
         nodelets = Nodelets()
         longest = 0.0
+        memory = []
         for cycle in range(cycles):
             if cycle == WARM_UP:
                 before = usage(host)
+            memory.append(round(usage(host).memory))
             listener = Listener(output, output_type)
             nodelets.load(name, kind, remappings)
             listener.wait()
@@ -58,11 +61,12 @@ class Reload(unittest.TestCase):
             longest = max(longest, time.monotonic() - start)
             listener.close()
         self.assertLess(longest, 2 + SLACK)
-        # Connections end when their other ends are told.
-        wait_until(lambda: usage(host).files <= before.files and usage(host).threads <= before.threads,
+        # Connections end when their other ends are told. The master may keep some, to tell of publishers.
+        wait_until(lambda: usage(host).files <= before.files + MASTER_THREADS and
+                   usage(host).threads <= before.threads,
                    'end of threads and connections: %s, now %s' % (before, usage(host)))
-        rospy.loginfo('%s, %d cycles: %s, then %s; the longest unloading took %.3f s', kind, cycles, before, usage(host),
-                      longest)
+        rospy.loginfo('%s, %d cycles: %s, then %s, MB over time %s; the longest unloading took %.3f s', kind, cycles, before,
+                      usage(host), memory[::max(1, cycles // 10)], longest)
         self.assertLess(usage(host).memory - before.memory, megabytes)
 
     def test_localizer(self):
