@@ -79,8 +79,8 @@ class BigClouds:
         big = numpy.repeat(numpy.repeat(xyz, 2, axis=0), 2, axis=1)
         nothing = numpy.full((1024 - big.shape[0], big.shape[1], 3), numpy.nan, numpy.float32).view(numpy.uint8)
         big = numpy.concatenate((big, nothing))
-        self.message = PointCloud2(header=Header(frame_id=table.header.frame_id), height=1024, width=1280, point_step=12,
-                                   row_step=12 * 1280, fields=table.fields[:3], data=big.tobytes())
+        self.message = PointCloud2(header=Header(frame_id=table.header.frame_id), height=1024, width=1280,
+                                   point_step=12, row_step=12 * 1280, fields=table.fields[:3], data=big.tobytes())
         self._publisher = rospy.Publisher('points', PointCloud2, queue_size=1)
         self._rate = rate
         self._stopping = threading.Event()
@@ -111,8 +111,9 @@ class Load(unittest.TestCase):
                 rospy.delete_param(name)
 
     def measure(self, process, node, megabytes, period=None):
-        """While the node is under load: it answers to the end, with the newest clouds, and its memory is flat. `period`,
-        s: of clouds that come from the same process, where their way takes no time; else their ages say nothing."""
+        """While the node is under load: it answers to the end, with the newest clouds, and its memory is flat.
+        `period`, s: of clouds that come from the same process, where their way takes no time; of others the ages say
+        nothing."""
         seconds = rospy.get_param('~seconds')
         answers = Listener('localizer/statistics', LocalizationStatistics)
         with Subscribers(node) as subscribers:
