@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Ends in the middle of a frame, by all the ways a node is ended, and a node whose master goes away. ~repetitions: of the
-ends of a node."""
+"""Ends in the middle of a frame, by all the ways a node is ended, and a node whose master goes away.
+~repetitions: of the ends of a node and of a nodelet."""
 
 import os
 import signal
@@ -17,8 +17,8 @@ import rostest
 
 from grasp_affordances.msg import LocalizationStatistics
 from grasp_affordances.srv import Localize
-from helpers import (ABNORMAL_ENDS, Nodelets, Process, Program, manager, others_subscribed_to, processor_time, published,
-                     publisher, scene, wait_until)
+from helpers import (ABNORMAL_ENDS, Nodelets, Process, Program, manager, others_subscribed_to, processor_time,
+                     published, publisher, scene, wait_until)
 from raw_peers import RawCaller, RawSubscriber
 
 LONG_FRAMES = {'sampling': {'samples': 1000000}, 'lazy': False}  # each of some ten seconds
@@ -33,7 +33,8 @@ def by_signal(number):
 
 def by_call(_):
     """As rosnode kill does."""
-    xmlrpc.client.ServerProxy(rosgraph.Master(rospy.get_name()).lookupNode('/localizer')).shutdown('/test', 'for a test')
+    uri = rosgraph.Master(rospy.get_name()).lookupNode('/localizer')
+    xmlrpc.client.ServerProxy(uri).shutdown('/test', 'for a test')
 
 
 ENDS = ((by_signal(signal.SIGINT), 0), (by_call, 0), (by_signal(signal.SIGTERM), -signal.SIGTERM))

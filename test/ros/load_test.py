@@ -23,8 +23,8 @@ OUTPUTS = ('shells', 'handles', 'hand_poses', 'markers', 'statistics', 'selected
            'handles_interactive/update')
 READERS = 9
 WARM_UP = 0.3    # share of the time: until everything that is kept has its size
+FEWEST = 8       # answers to look at, however long they take
 SLACK = 0.5      # s, of a machine with more to do than it has cores
-BIG_TRANSPORT = 2.0  # s that 16 MB take from a node in Python to another node, there
 SMALL = 4096     # bytes, of a receive buffer
 
 
@@ -79,8 +79,8 @@ class BigClouds:
         big = numpy.repeat(numpy.repeat(xyz, 2, axis=0), 2, axis=1)
         nothing = numpy.full((1024 - big.shape[0], big.shape[1], 3), numpy.nan, numpy.float32).view(numpy.uint8)
         big = numpy.concatenate((big, nothing))
-        self.message = PointCloud2(header=Header(frame_id=table.header.frame_id), height=1024, width=1280, point_step=12,
-                                   row_step=12 * 1280, fields=table.fields[:3], data=big.tobytes())
+        self.message = PointCloud2(header=Header(frame_id=table.header.frame_id), height=1024, width=1280,
+                                   point_step=12, row_step=12 * 1280, fields=table.fields[:3], data=big.tobytes())
         self._publisher = rospy.Publisher('points', PointCloud2, queue_size=1)
         self._rate = rate
         self._stopping = threading.Event()
@@ -102,21 +102,27 @@ class BigClouds:
 
 
 class Load(unittest.TestCase):
+    def setUp(self):
+        rospy.set_param('localizer', {'threads': 1, 'sampling': {'samples': 10000}})  # slower than its cameras
+
     def tearDown(self):
         for name in ('localizer', 'camera'):
             if rospy.has_param(name):
                 rospy.delete_param(name)
 
-    def measure(self, process, node, period, megabytes, transport=0.0):
-        """While the node is under load: it answers to the end, with the newest clouds, and its memory is flat."""
+    def measure(self, process, node, megabytes, period=None):
+        """While the node is under load: it answers to the end, with the newest clouds, and its memory is flat.
+        `period`, s: of clouds that come from the same process, where their way takes no time; of others the ages say
+        nothing."""
         seconds = rospy.get_param('~seconds')
         answers = Listener('localizer/statistics', LocalizationStatistics)
         with Subscribers(node) as subscribers:
             answers.wait(lambda m: m.clouds_processed >= 2, timeout=60)
             memory = []
             start = time.monotonic()
-            while time.monotonic() < start + seconds:
+            while time.monotonic() < start + seconds or len(answers.messages()) < FEWEST:
                 time.sleep(0.1)
+                self.assertLess(time.monotonic(), start + seconds + 60, 'it answers no more')
                 if time.monotonic() > start + WARM_UP * seconds:
                     memory.append(usage(process).memory)
             end = rospy.Time.now()
@@ -125,7 +131,7 @@ class Load(unittest.TestCase):
             answers.wait(lambda m: m.header.stamp > end, timeout=20)
             read = list(subscribers.read)
         answers.close()
-        self.check_newest_only(arrivals, period + transport)
+        self.check_newest_only(arrivals, period)
         rospy.loginfo('%d answers, %d clouds received, memory %.1f to %.1f MB, %s markers read', len(arrivals),
                       arrivals[-1][0].clouds_received - arrivals[0][0].clouds_received, min(memory), max(memory), read)
         self.assertLess(max(memory) - min(memory), megabytes)
@@ -134,7 +140,6 @@ class Load(unittest.TestCase):
     def check_newest_only(self, arrivals, period):
         messages = [message for message, _ in arrivals]
         first, last = messages[0], messages[-1]
-        self.assertGreater(len(messages), 5)
         self.assertGreater(last.clouds_dropped, first.clouds_dropped)
         for message in messages:
             handled = message.clouds_processed + message.clouds_dropped + message.clouds_rejected
@@ -142,11 +147,11 @@ class Load(unittest.TestCase):
             self.assertEqual(message.clouds_rejected, 0)
         for (earlier, _), (message, arrival) in zip(arrivals, arrivals[1:]):
             self.assertGreater(message.header.stamp, earlier.header.stamp)
-            # A cloud waits for the localization before it at most, and came at most a period before that ended, or was
-            # replaced by one that did.
+            # A cloud waits for the localization before it at most, or is replaced by the one that comes a period later.
             work = (earlier.milliseconds_total + message.milliseconds_total) / 1e3
-            self.assertLess((arrival - message.header.stamp).to_sec(), work + period + SLACK)
             self.assertLess(message.milliseconds_latency / 1e3, work + SLACK)
+            if period:
+                self.assertLess((arrival - message.header.stamp).to_sec(), work + period + SLACK)
 
     def check_clean_end(self, process):
         self.assertEqual(process.interrupt(), 0, process.output())
@@ -155,7 +160,6 @@ class Load(unittest.TestCase):
 
     def test_camera_of_100_Hz_and_a_slow_localizer_in_one_manager(self):
         rospy.set_param('camera/camera', {'rate': 100.0, 'motion': 'orbit', 'frames_ahead': 6})
-        rospy.set_param('localizer', {'threads': 1, 'sampling': {'samples': 20000}})
         with manager() as host:
             nodelets = Nodelets()
             nodelets.load('/camera/camera', 'SimulatedCameraNodelet')
@@ -164,7 +168,7 @@ class Load(unittest.TestCase):
             frames.wait(timeout=60)  # they are rendered
             frames.close()
             with BusyCores():
-                self.measure(host, '/manager', 1 / 100, 40)
+                self.measure(host, '/manager', 40, period=1 / 100)
                 self.check_clean_end(host)
 
     def test_clouds_of_1280x1024(self):
@@ -173,7 +177,7 @@ class Load(unittest.TestCase):
             megabytes = len(clouds.message.data) / 1e6
             with BusyCores():
                 # Clouds that are received, wait or are worked on come and go.
-                self.measure(node, '/localizer', 1 / 30, 4 * megabytes, BIG_TRANSPORT)
+                self.measure(node, '/localizer', 4 * megabytes)
                 self.check_clean_end(node)
 
 

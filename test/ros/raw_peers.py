@@ -1,4 +1,4 @@
-"""Peers of a node that speak ROS's protocols themselves: they need no master, and may do what no client library does."""
+"""Peers that speak ROS's protocols themselves: they need no master, and may do what no client library does."""
 
 import socket
 import struct

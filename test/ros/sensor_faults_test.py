@@ -160,7 +160,8 @@ class SensorFaults(unittest.TestCase):
         vanishings = rospy.get_param('~vanishings')
         with VirtualDevices(device(state='vanishing')) as devices, devices.driver('vanishing') as driver:
             images = Listener('vanishing/depth/image_raw', Image)
-            wait_until(lambda: driver.output().count('was disconnected') >= vanishings, 'vanishing', 20 + 2 * vanishings)
+            wait_until(lambda: driver.output().count('was disconnected') >= vanishings, 'vanishing',
+                       20 + 2 * vanishings)
             plugged = rospy.Time.now()
             devices.write(device())
             images.wait(lambda image: image.header.stamp > plugged)
