@@ -126,7 +126,7 @@ void Localizer::cancelWhen(std::function<bool()> wanted)
 }
 
 /// AffordanceFind (Algorithm 1), and what becomes of its shells.
-void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localization& result,
+void Localizer::localize(const std::vector<PosedCloud>& views, Localization& result,
                          const Eigen::Isometry3d& T_workspace_common, const Eigen::Isometry3d& T_approach_common)
 {
   Implementation& own = *implementation_;
@@ -137,7 +137,7 @@ void Localizer::localize(const std::vector<PosedCloud>& posed_clouds, Localizati
   result.sampled = 0;
   result.milliseconds = StageTimes();
   own.cancellation.check();
-  own.views.update(posed_clouds, own.config, T_workspace_common, *own.team);
+  own.views.update(views, own.config, T_workspace_common, *own.team);
   result.points = own.views.measured;
   result.threads = static_cast<std::uint32_t>(own.team->size());
   result.warnings = own.views.warnings;

@@ -21,7 +21,7 @@ public:
         width_(static_cast<float>(image.cloud().width)),
         height_(static_cast<float>(image.cloud().height)),
         u_(static_cast<float>(pixel % image.cloud().width)),
-        v_(static_cast<float>(pixel / image.cloud().width)),
+        v_(static_cast<float>(pixel / image.cloud().width)),  // NOLINT(bugprone-integer-division): a row
         away_(depth_[pixel] + static_cast<float>(hand.finger_thickness))
   {
     const auto spacing = static_cast<float>(image.spacing(depth_[pixel]));
@@ -58,6 +58,7 @@ private:
     const float skipped = skips ? pitch_ : 0.0F;
     float before = skipped;
     float edge = -1.0F;
+    // NOLINTNEXTLINE(cert-flp30-c, clang-analyzer-security.FloatLoopCounter): steps of a pixel, within the image
     for (float s = before + pitch_; s <= end; s = before + pitch_) {
       if (leaves_image && !inImage(pixelU(s), pixelV(s))) {
         return kNoEdge;

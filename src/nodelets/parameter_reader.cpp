@@ -7,7 +7,7 @@ namespace
 
 using XmlRpc::XmlRpcValue;
 
-void flatten(XmlRpcValue value, const std::string& path, std::map<std::string, XmlRpcValue>& flat)
+void flatten(const XmlRpcValue& value, const std::string& path, std::map<std::string, XmlRpcValue>& flat)
 {
   if (value.getType() != XmlRpcValue::TypeStruct) {
     flat[path] = value;
