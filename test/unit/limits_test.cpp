@@ -106,11 +106,16 @@ TEST(Limits, ABudgetEndsTheWorkOnAFewHugeNeighborhoods)
   const Localization whole = localizer.localize(cloud);
   const auto out_of_time = static_cast<std::size_t>(Outcome::out_of_time);
   ASSERT_EQ(whole.counts[out_of_time], 0U);
+  // Preparation may take as long as the whole, on a machine that is busy with other things: then all samples are left
+  // out.
   std::uint32_t left_out = 0;
-  for (config.sampling.time_budget_ms = whole.milliseconds.total; left_out == 0;
-       config.sampling.time_budget_ms *= 0.9) {
-    localizer.configure(config);
-    left_out = localizer.localize(cloud).counts[out_of_time];
+  for (int attempt = 0; attempt < 5 && (left_out == 0 || left_out == 64); ++attempt) {
+    left_out = 0;
+    for (double budget = whole.milliseconds.total; left_out == 0; budget *= 0.9) {
+      config.sampling.time_budget_ms = budget;
+      localizer.configure(config);
+      left_out = localizer.localize(cloud).counts[out_of_time];
+    }
   }
   EXPECT_LT(left_out, 64U);
 }
