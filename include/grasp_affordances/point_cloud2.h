@@ -16,6 +16,10 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// Points of the largest cloud that is read, 4096 x 4096: working memory grows with their number, by some 150 bytes for
+/// each.
+constexpr std::uint32_t kMostPoints = 1U << 24U;
+
 /// Where a PointCloud2 keeps its coordinates, as it claims; nothing in here has been checked.
 struct PointCloud2Layout
 {
@@ -39,8 +43,8 @@ struct PointCloud2Layout
 
 /// Copies the points; points that are not measured become NaN. Rows may be padded and coordinates unaligned.
 /// A width or height of zero is an empty cloud, whatever the rest says.
-/// @throw CloudError for a layout that contradicts itself or has no x, y, z of FLOAT32 or FLOAT64; before anything is
-/// allocated, and without touching the cloud.
+/// @throw CloudError for a layout that contradicts itself, has no x, y, z of FLOAT32 or FLOAT64, or more than
+/// kMostPoints; before anything is allocated, and without touching the cloud.
 void cloudFromLayout(const PointCloud2Layout& layout, Cloud& cloud);
 
 /// Reads the points of a sensor_msgs::PointCloud2 or a pcl::PCLPointCloud2 into a cloud, whose sensor origin and

@@ -44,9 +44,12 @@ public:
   /// Points further than this (pixels) from their pixel show that the cloud is not in its optical frame.
   static constexpr double kMaxResidual = 4.0;
 
-  /// Empty where the cloud is not organized, or its points do not reproject; `warning` then says why. Intrinsics
-  /// that the cloud carries and that do not fit are replaced by estimated ones, with a warning. Allocates nothing but
-  /// warnings.
+  /// Longest side (pixels): working memory of each thread grows with it.
+  static constexpr std::uint32_t kLongestSide = 16384;
+
+  /// Empty where the cloud is not organized or too long, or its points do not reproject; `warning` then says why.
+  /// Intrinsics that the cloud carries and that do not fit are replaced by estimated ones, with a warning. Allocates
+  /// nothing but warnings.
   static std::optional<RangeImage> create(const Cloud& cloud, std::string& warning, ThreadTeam* team = nullptr);
 
   /// Another cloud of the same size, each point of which is on its pixel's ray, seen by the same camera.

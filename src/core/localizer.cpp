@@ -49,12 +49,7 @@ public:
     constexpr std::size_t kSize = SampleBlock::kSamples;
     team->forEach((end - begin + kSize - 1) / kSize, [&](std::size_t i, std::size_t member) {
       const std::size_t first = begin + i * kSize, last = std::min(first + kSize, end);
-      if (budget.spent()) {
-        std::for_each(&samples[first], &samples[first] + (last - first),
-                      [](SampleResult& sample) { sample.outcome = Outcome::out_of_time; });
-        return;
-      }
-      blocks[member].examine(views, config, first, last, draw.points() + first, &samples[first], cancellation);
+      blocks[member].examine(views, config, first, last, draw.points() + first, &samples[first], budget, cancellation);
     });
     cancellation.check();
     for (std::size_t i = begin; i < end; ++i) {

@@ -59,6 +59,11 @@ void check(const PointCloud2Layout& layout)
     throw CloudError("data holds " + bytes(layout.data_size) + ", not height " + std::to_string(layout.height) +
                      " times row_step " + std::to_string(layout.row_step));
   }
+  const std::uint64_t points = std::uint64_t{layout.width} * layout.height;
+  if (points > kMostPoints) {
+    throw CloudError("the cloud has " + std::to_string(points) + " points, more than the " +
+                     std::to_string(kMostPoints) + " that are allowed");
+  }
 }
 
 /// Copies a row's coordinate. A double that no float represents becomes NaN; what else is not measured stays.

@@ -122,6 +122,11 @@ std::optional<RangeImage> RangeImage::create(const Cloud& cloud, std::string& wa
     warning = "the cloud is not organized";
     return std::nullopt;
   }
+  if (std::max(cloud.width, cloud.height) > kLongestSide) {
+    warning = "the organized cloud of " + std::to_string(cloud.width) + "x" + std::to_string(cloud.height) +
+              " points is no image: a side is longer than " + std::to_string(kLongestSide);
+    return std::nullopt;
+  }
   std::string given_warning;
   if (cloud.intrinsics) {
     const auto given = checkIntrinsics(cloud, *cloud.intrinsics, team);

@@ -64,7 +64,7 @@ void SampleBlock::Remaining::pass(Stage&& stage)
 }
 
 void SampleBlock::examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-                          const PreparedViews::SamplePoint* points, SampleResult* results,
+                          const PreparedViews::SamplePoint* points, SampleResult* results, const TimeBudget& budget,
                           const Cancellation& cancellation)
 {
   Remaining all;
@@ -83,7 +83,7 @@ void SampleBlock::examine(const PreparedViews& views, const Config& config, std:
   const bool looks = config.occlusion.filter && config.occlusion.min_distance_in_front == 0.0 &&
                      config.neighborhood.kind == NeighborhoodKind::radius && views.allHaveImages();
   if (looks) {
-    look(all, views, config);
+    look(all, views, config, budget);
     filterOccluded(all, views, config);
   }
   for (std::size_t first = 0; first < all.size() && !cancellation.wanted(); first += kFittedAtOnce) {
@@ -92,7 +92,7 @@ void SampleBlock::examine(const PreparedViews& views, const Config& config, std:
       all[i].neighborhood = &neighborhoods_[i - first];
       samples.add(all[i]);
     }
-    findNeighborhoods(samples, views, config);
+    findNeighborhoods(samples, views, config, budget);
     if (!looks) {
       filterOccluded(samples, views, config);
     }
@@ -105,22 +105,29 @@ void SampleBlock::examine(const PreparedViews& views, const Config& config, std:
     }
     fitCylinders(samples, views, config);
     times.fit += stopwatch.lap();
-    fitShells(samples, views, config);
+    fitShells(samples, views, config, budget);
     times.shell += stopwatch.lap();
   }
 }
 
-void SampleBlock::look(Remaining& samples, const PreparedViews& views, const Config& config)
-{
-  Stopwatch stopwatch;
-  samples.pass([&](Sample& sample) { return enoughPoints(views.look(sample.point, config, sample.spheres), config); });
-  times.neighborhoods += stopwatch.lap();
-}
-
-void SampleBlock::findNeighborhoods(Remaining& samples, const PreparedViews& views, const Config& config)
+void SampleBlock::look(Remaining& samples, const PreparedViews& views, const Config& config, const TimeBudget& budget)
 {
   Stopwatch stopwatch;
   samples.pass([&](Sample& sample) {
+    return budget.spent() ? std::optional<Outcome>(Outcome::out_of_time)
+                          : enoughPoints(views.look(sample.point, config, sample.spheres), config);
+  });
+  times.neighborhoods += stopwatch.lap();
+}
+
+void SampleBlock::findNeighborhoods(Remaining& samples, const PreparedViews& views, const Config& config,
+                                    const TimeBudget& budget)
+{
+  Stopwatch stopwatch;
+  samples.pass([&](Sample& sample) -> std::optional<Outcome> {
+    if (budget.spent()) {
+      return Outcome::out_of_time;
+    }
     const bool with_index = config.estimation.estimator == Estimator::normals;
     views.gather(sample.point, config, with_index, *sample.neighborhood, sample.spheres, part_);
     return enoughPoints(sample.neighborhood->size(), config);
@@ -227,10 +234,12 @@ void SampleBlock::fitCylinders(Remaining& samples, const PreparedViews& views, c
   });
 }
 
-void SampleBlock::fitShells(Remaining& samples, const PreparedViews& views, const Config& config)
+void SampleBlock::fitShells(Remaining& samples, const PreparedViews& views, const Config& config,
+                            const TimeBudget& budget)
 {
   samples.pass([&](Sample& sample) {
-    const std::optional<Outcome> ended = fitShell(sample, views, config);
+    const std::optional<Outcome> ended =
+        budget.spent() ? std::optional<Outcome>(Outcome::out_of_time) : fitShell(sample, views, config);
     if (!ended) {
       Shell& shell = sample.result->shell;
       shell = transformed(shell, views.T_common_view(sample.point.view));

@@ -9,6 +9,7 @@
 
 #include "core/cancellation.h"
 #include "core/prepared_views.h"
+#include "core/time_budget.h"
 
 #include <Eigen/Core>
 
@@ -36,9 +37,10 @@ public:
   static constexpr std::size_t kSamples = 64;
 
   /// Examines the samples [begin, end), at most kSamples. The first is drawn at points[0], its result goes to
-  /// results[0]. Cancelled, it returns early, with results that are not valid.
+  /// results[0]. Where the budget is spent, those that are left are out of time. Cancelled, it returns early, with
+  /// results that are not valid.
   void examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-               const PreparedViews::SamplePoint* points, SampleResult* results,
+               const PreparedViews::SamplePoint* points, SampleResult* results, const TimeBudget& budget,
                const Cancellation& cancellation = Cancellation());
 
   StageTimes times;  ///< summed over the samples since it was last reset
@@ -81,14 +83,15 @@ private:
 
   static constexpr std::size_t kFittedAtOnce = TaubinFitter::kCapacity;
 
-  void look(Remaining& samples, const PreparedViews& views, const Config& config);
-  void findNeighborhoods(Remaining& samples, const PreparedViews& views, const Config& config);
+  void look(Remaining& samples, const PreparedViews& views, const Config& config, const TimeBudget& budget);
+  void findNeighborhoods(Remaining& samples, const PreparedViews& views, const Config& config,
+                         const TimeBudget& budget);
   void filterOccluded(Remaining& samples, const PreparedViews& views, const Config& config);
   void sumMoments(Remaining& samples, const Config& config);
   void estimateCurvatureAxes(Remaining& samples, const PreparedViews& views, const Config& config);
   void estimatePrincipalAxes(Remaining& samples, const PreparedViews& views, const Config& config);
   void fitCylinders(Remaining& samples, const PreparedViews& views, const Config& config);
-  void fitShells(Remaining& samples, const PreparedViews& views, const Config& config);
+  void fitShells(Remaining& samples, const PreparedViews& views, const Config& config, const TimeBudget& budget);
   std::optional<Outcome> fitShell(Sample& sample, const PreparedViews& views, const Config& config);
 
   std::array<Sample, kSamples> samples_;

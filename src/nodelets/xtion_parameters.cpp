@@ -2,7 +2,9 @@
 
 #include "nodelets/parameter_reader.h"
 
+#include <regex>
 #include <stdexcept>
+#include <string>
 
 namespace grasp_affordances
 {
@@ -16,6 +18,18 @@ FrameMode readMode(const std::string& name, const std::string& word, const std::
   } catch (const std::invalid_argument& error) {
     throw ParameterError("parameter ~" + name + " is the string '" + word + "'; it must be " + alternative +
                          error.what());
+  }
+}
+
+/// Of a calibration file. camera_info_manager hands the name of its folder to a shell, to have it made, and overwrites
+/// the file when somebody calls set_camera_info.
+void checkUrl(const std::string& name, const std::string& url)
+{
+  static const std::regex kAllowed(R"((file://|package://)([\w./+-]|\$\{NAME\}|\$\{ROS_HOME\})+\.(yaml|yml|ini))");
+  if (!url.empty() && !std::regex_match(url, kAllowed)) {
+    throw ParameterError("parameter ~" + name + " is the string '" + url +
+                         "'; it must be empty or file://... or package://..., of letters, digits and any of _./+-, "
+                         "${NAME} and ${ROS_HOME}, and end in .yaml, .yml or .ini");
   }
 }
 
@@ -41,6 +55,8 @@ XtionParameters xtionParameters(ParameterReader read)
   read("rgb_camera_info_url", result.rgb_camera_info_url, "the URL of a calibration");
   read("diagnostic_period", result.diagnostic_period, Real{0.1, 60.0}, "s", "");
   read.refuseRemaining();
+  checkUrl("depth_camera_info_url", result.depth_camera_info_url);
+  checkUrl("rgb_camera_info_url", result.rgb_camera_info_url);
 
   result.depth_mode = readMode("depth_mode", depth_mode, "");
   if (color_mode != "off") {

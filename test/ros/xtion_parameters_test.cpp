@@ -119,6 +119,25 @@ TEST(XtionParameters, RefusalsSayWhatAModeIs)
             "parameter ~color_mode is false; it must be the string 'off' or a mode such as 640x480@30");
 }
 
+/// camera_info_manager has a shell make the folder of such a file.
+TEST(XtionParameters, UrlsOfCalibrationsAreNothingButPaths)
+{
+  for (const char* name : {"depth_camera_info_url", "rgb_camera_info_url"}) {
+    for (const char* url : {"", "file:///home/me/.ros/depth-1.yaml", "package://my_robot/calibration/rgb.yml",
+                            "file://${ROS_HOME}/camera_info/${NAME}.yaml", "file:///${NAME}.ini"}) {
+      EXPECT_EQ(refusal(name, url), "") << url;
+    }
+    for (const char* url :
+         {"file:///tmp/x;touch pwned/depth.yaml", "file:///tmp/$(touch pwned)/depth.yaml",
+          "file:///tmp/`id`/depth.yaml", "file:///tmp/a b/depth.yaml", "file:///tmp/x|y/depth.yaml",
+          "file:///tmp/x&y/depth.yaml", "file:///tmp/x\ny/depth.yaml", "file:///tmp/${HOME}/depth.yaml",
+          "file:///home/me/.bashrc", "/tmp/depth.yaml", "http://example.org/depth.yaml", "file:///tmp/depth.yaml\n"}) {
+      EXPECT_NE(refusal(name, url).find(std::string("parameter ~") + name + " is the string"), std::string::npos)
+          << url;
+    }
+  }
+}
+
 TEST(XtionParameters, RefusesWhatIsNotAllowed)
 {
   for (const auto& [name, value] : {std::pair<const char*, XmlRpcValue>{"device_id", 1},

@@ -9,6 +9,7 @@
 #include "core/prepared_views.h"
 #include "core/sample_block.h"
 #include "core/thread_team.h"
+#include "core/time_budget.h"
 
 #include "support/points.h"
 
@@ -40,7 +41,7 @@ public:
     std::vector<SampleResult> results(points.size());
     for (std::size_t begin = 0; begin < points.size(); begin += SampleBlock::kSamples) {
       const std::size_t end = std::min(begin + SampleBlock::kSamples, points.size());
-      block_.examine(views_, config_, begin, end, points.data() + begin, results.data() + begin);
+      block_.examine(views_, config_, begin, end, points.data() + begin, results.data() + begin, TimeBudget(0.0));
     }
     return results;
   }
