@@ -37,7 +37,8 @@ def by_call(_):
     xmlrpc.client.ServerProxy(uri).shutdown('/test', 'for a test')
 
 
-ENDS = ((by_signal(signal.SIGINT), 0), (by_call, 0), (by_signal(signal.SIGTERM), -signal.SIGTERM))
+# roscpp leaves SIGTERM alone: unless the node takes it, too, it ends at once, with the signal as its exit code.
+ENDS = ((by_signal(signal.SIGINT), (0,)), (by_call, (0,)), (by_signal(signal.SIGTERM), (0, -signal.SIGTERM)))
 
 
 class Master:
@@ -105,8 +106,8 @@ class Endings(unittest.TestCase):
         start = processor_time(process)
         wait_until(lambda: processor_time(process) > start + 0.5, 'work on a frame')
 
-    def check_end(self, process, code, start):
-        self.assertEqual(process.wait(15), code, process.output())
+    def check_end(self, process, start, codes=(0,)):
+        self.assertIn(process.wait(15), codes, process.output())
         self.assertLess(time.monotonic() - start, LIMIT + SLACK, process.output())
         for sign in ABNORMAL_ENDS:
             self.assertNotIn(sign, process.output())
@@ -114,13 +115,13 @@ class Endings(unittest.TestCase):
     def test_of_a_node_in_the_middle_of_a_frame(self):
         with publisher(scene('table'), rate=10):
             for repetition in range(rospy.get_param('~repetitions')):
-                for threads, (end, code) in zip((1, 0, 2), ENDS):
+                for threads, (end, codes) in zip((1, 0, 2), ENDS):
                     with Process('grasp_affordances', 'localizer_node', '_threads:=%d' % threads) as node:
                         wait_until(lambda: self.subscribes(node), 'start')
                         self.work_on_a_frame(node)
                         start = time.monotonic()
                         end(node)
-                        self.check_end(node, code, start)
+                        self.check_end(node, start, codes)
                         rospy.loginfo('end %d took %.3f s', repetition, time.monotonic() - start)
 
     def test_of_a_nodelet_in_the_middle_of_a_frame(self):
@@ -136,7 +137,7 @@ class Endings(unittest.TestCase):
             self.work_on_a_frame(host)
             start = time.monotonic()
             host.signal(signal.SIGINT)
-            self.check_end(host, 0, start)
+            self.check_end(host, start)
 
     def test_in_the_middle_of_a_call(self):
         with Process('grasp_affordances', 'localizer_node') as node:
@@ -155,7 +156,7 @@ class Endings(unittest.TestCase):
             self.assertEqual(answers, [])
             start = time.monotonic()
             node.signal(signal.SIGINT)
-            self.check_end(node, 0, start)
+            self.check_end(node, start)
             caller.join(20)
             self.assertTrue(isinstance(answers[0], Exception) or not answers[0].success, answers)
 
@@ -198,7 +199,7 @@ class Endings(unittest.TestCase):
                         for process in (node, camera):
                             process.signal(signal.SIGINT)
                         for process in (node, camera):
-                            self.check_end(process, 0, start)
+                            self.check_end(process, start)
                         rospy.loginfo('the end without a master took %.3f s', time.monotonic() - start)
 
 

@@ -200,7 +200,7 @@ class Multiview(unittest.TestCase):
             self.assertFalse(silent.success)
             self.assertIn('no set of clouds arrived within 0.3 s', silent.message)
             # Though somebody listens, it subscribes only while it is asked.
-            self.assertFalse(any(p.get_num_connections() for p in self.publishers))
+            wait_until(lambda: not any(p.get_num_connections() for p in self.publishers), 'end of the subscription')
             for processed in (1, 2):
                 answer = self.trigger(timeout=20)
                 self.connect(2)
