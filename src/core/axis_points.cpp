@@ -113,7 +113,7 @@ struct SliceDealer
     const auto first_slice = static_cast<std::size_t>(std::max(hn::GetLane(lowest) - wider, 0.0F));
     const auto last_slice = static_cast<std::size_t>(std::min(hn::GetLane(highest) + wider, last));
     for (std::size_t slice = first_slice; slice <= last_slice; ++slice) {
-      const float here = static_cast<float>(slice);
+      const auto here = static_cast<float>(slice);
       auto in_slice = hn::Eq(number, hn::Set(f, here));
       if (borders) {
         const auto before = hn::And(at_end, hn::Eq(number, hn::Set(f, here - 1.0F)));

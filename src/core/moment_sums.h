@@ -24,8 +24,8 @@ constexpr int momentCount(int degree)
 
 /// Sums over `count` points of all monomials of degree at most `degree` (2, 3 or 4) in their coordinates from a centre,
 /// in double precision; the same for every degree. @param coordinates of the points, three arrays. @param center its
-/// three coordinates. @param sums momentCount(degree) of them, by momentIndex.
-void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* sums,
+/// three coordinates. @param moments momentCount(degree) of them, by momentIndex.
+void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* moments,
                 int degree = 4);
 
 }  // namespace grasp_affordances

@@ -23,14 +23,14 @@ using U = hn::Rebind<std::uint32_t, F>;
 // Floats that are not negative have the order of their bits.
 inline std::int32_t bitsOf(float value)
 {
-  std::int32_t bits;
+  std::int32_t bits = 0;
   std::memcpy(&bits, &value, sizeof(bits));
   return bits;
 }
 
 inline float floatOf(std::int32_t bits)
 {
-  float value;
+  float value = 0.0F;
   std::memcpy(&value, &bits, sizeof(value));
   return value;
 }

@@ -58,7 +58,6 @@ private:
     const float skipped = skips ? pitch_ : 0.0F;
     float before = skipped;
     float edge = -1.0F;
-    // NOLINTNEXTLINE(cert-flp30-c, clang-analyzer-security.FloatLoopCounter): steps of a pixel, within the image
     for (float s = before + pitch_; s <= end; s = before + pitch_) {
       if (leaves_image && !inImage(pixelU(s), pixelV(s))) {
         return kNoEdge;

@@ -25,10 +25,10 @@ template <class D>
 class Compaction
 {
 public:
-  HWY_ATTR HWY_INLINE explicit Compaction(hwy::HWY_NAMESPACE::Mask<D> keep) : keep_(keep)
+  HWY_ATTR HWY_INLINE explicit Compaction(hwy::HWY_NAMESPACE::Mask<D> keep)
+      : count(hwy::HWY_NAMESPACE::CountTrue(D(), keep)), keep_(keep)
   {
     namespace hn = hwy::HWY_NAMESPACE;
-    count = hn::CountTrue(D(), keep);
     if constexpr (hn::MaxLanes(D()) <= kOrderedLanes) {
       std::uint8_t bits[8] = {};
       hn::StoreMaskBits(D(), keep, bits);
