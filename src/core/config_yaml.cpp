@@ -1,3 +1,4 @@
+#include "core/one_line.h"
 #include "grasp_affordances/parameters.h"
 
 #include <yaml-cpp/yaml.h>
@@ -11,6 +12,8 @@ namespace grasp_affordances
 {
 namespace
 {
+
+constexpr std::size_t kMostBytes = 1000000;  // of a file; one with every parameter and its comment has 6000
 
 using Values = std::map<std::string, YAML::Node>;
 
@@ -83,10 +86,11 @@ private:
   Values& values_;
 };
 
-}  // namespace
-
-Config configFromYaml(const std::string& text, const Config& base)
+Config readConfig(const std::string& text, const Config& base)
 {
+  if (text.size() > kMostBytes) {
+    throw ParameterError("the configuration is longer than " + std::to_string(kMostBytes) + " bytes");
+  }
   Values values;
   try {
     const YAML::Node root = YAML::Load(text);
@@ -113,13 +117,25 @@ Config configFromYaml(const std::string& text, const Config& base)
   return config;
 }
 
+}  // namespace
+
+Config configFromYaml(const std::string& text, const Config& base)
+{
+  try {
+    return readConfig(text, base);
+  } catch (const ParameterError& error) {
+    throw ParameterError(oneLine(error.what()));
+  } catch (const YAML::Exception& error) {  // of a value that cannot even be quoted
+    throw ParameterError(oneLine(std::string("the configuration is no YAML: ") + error.what()));
+  }
+}
+
 Config configFromYamlFile(const std::string& path, const Config& base)
 {
-  std::ifstream file(path);
-  std::string text;
-  for (std::string line; std::getline(file, line);) {
-    text += line + '\n';
-  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kMostBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
   if (!file.is_open() || file.bad()) {
     throw ParameterError(path + ": cannot be read");
   }

@@ -9,6 +9,7 @@
 #include <pcl/point_types.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -17,7 +18,8 @@ namespace grasp_affordances
 namespace
 {
 
-/// The tree computes its own distances: it is asked for slightly more, and the shared distance decides.
+/// The tree computes its own distances: it is asked for slightly more, and the shared distance decides. Where spheres
+/// hold a good part of the cloud, going through all of it is faster by far and finds the same.
 class TreeSearch : public NeighborhoodSearch
 {
 public:
@@ -42,13 +44,12 @@ public:
     if (index_.empty()) {
       return;
     }
-    static thread_local std::vector<int> found;
-    static thread_local std::vector<float> squared_distances;
-    tree_.radiusSearch(toPcl(center), std::max(kInflation * radius, kSmallestRadius), found, squared_distances);
-    std::sort(found.begin(), found.end());
-    for (const int i : found) {
-      result.appendPoint(cloud_, index_[i]);
+    if (crowded_.load(std::memory_order_relaxed)) {
+      result.appendRange(cloud_, 0, cloud_.size());
+    } else {
+      appendFromTree(center, radius, result);
     }
+    crowded_.store(result.size() > cloud_.size() / kCrowd, std::memory_order_relaxed);
   }
 
   void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override
@@ -79,12 +80,25 @@ private:
   static constexpr double kInflation = 1.0001;
   static constexpr double kSmallestRadius = 1e-18;  // m; the tree finds nothing within a radius of zero
   static constexpr double kLargestRadius = 1e18;    // m; the square of a larger one overflows
+  static constexpr std::size_t kCrowd = 64;         // a point of the tree costs as much as so many in a row, or more
 
   static pcl::PointXYZ toPcl(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
+
+  void appendFromTree(const Eigen::Vector3f& center, float radius, Neighborhood& result) const
+  {
+    static thread_local std::vector<int> found;
+    static thread_local std::vector<float> squared_distances;
+    tree_.radiusSearch(toPcl(center), std::max(kInflation * radius, kSmallestRadius), found, squared_distances);
+    std::sort(found.begin(), found.end());
+    for (const int i : found) {
+      result.appendPoint(cloud_, index_[i]);
+    }
+  }
 
   const Cloud& cloud_;
   std::vector<std::uint32_t> index_;  // of the tree's points in the cloud
   pcl::KdTreeFLANN<pcl::PointXYZ> tree_;
+  mutable std::atomic<bool> crowded_{false};  // whether the sphere searched last held many of the points
 };
 
 }  // namespace

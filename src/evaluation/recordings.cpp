@@ -1,13 +1,18 @@
 #include "evaluation/recordings.h"
 
+#include "core/one_line.h"
 #include "io/pcd.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -27,23 +32,69 @@ struct Recording
   std::map<std::uint32_t, std::uint32_t> labels;  // of objects, to those of affordances or doubtful
 };
 
+/// What is not as it should be. Only the kind of what may be nested however deeply: that is written by recursion.
+std::string quoted(const Json& value)
+{
+  const bool is_nested = value.is_structured();
+  return is_nested ? value.type_name() : value.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+const Json& list(const Json& value)
+{
+  if (!value.is_array()) {
+    throw std::runtime_error(quoted(value) + " is no list");
+  }
+  return value;
+}
+
+/// What points say that are on an object.
+std::uint32_t objectLabel(const Json& value)
+{
+  const auto most = std::numeric_limits<std::uint32_t>::max();
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
+    throw std::runtime_error(quoted(value) + " is no label of an object");
+  }
+  return value.get<std::uint32_t>();
+}
+
 Recording parse(const std::string& path, double capture_radius, const Json& scene)
 {
-  Recording recording{path, capture_radius, scene.at("affordances").size(), {}};
+  const Json& affordances = list(scene.at("affordances"));
+  Recording recording{path, capture_radius, affordances.size(), {}};
   if (recording.affordances >= kDoubtful) {
     throw std::runtime_error("more affordances than labels");
   }
-  for (const std::uint32_t object : scene.at("ignore")) {
-    recording.labels[object] = kDoubtful;
+  for (const Json& object : list(scene.at("ignore"))) {
+    recording.labels[objectLabel(object)] = kDoubtful;
   }
   std::uint32_t label = 0;
-  for (const Json& objects : scene.at("affordances")) {
+  for (const Json& objects : affordances) {
     ++label;
-    for (const std::uint32_t object : objects) {
-      recording.labels[object] = label;
+    for (const Json& object : list(objects)) {
+      recording.labels[objectLabel(object)] = label;
     }
   }
   return recording;
+}
+
+double captureRadius(const Json& value)
+{
+  const double radius = value.get<double>();
+  if (!std::isfinite(radius) || radius <= 0.0) {
+    throw std::runtime_error("capture_radius is no length above zero");
+  }
+  return radius;
+}
+
+/// The file of a scene, beside that of the labels: a name that leads elsewhere is none.
+std::string fileOf(const std::string& scene)
+{
+  const auto is_separator = [](unsigned char c) { return c == '/' || std::iscntrl(c) != 0; };
+  constexpr std::size_t kLongest = 200;
+  if (scene.empty() || scene.size() > kLongest || std::any_of(scene.begin(), scene.end(), is_separator)) {
+    throw std::runtime_error("'" + scene + "' is no name of a scene");
+  }
+  return scene + ".pcd";
 }
 
 std::vector<std::uint32_t> objectLabels(const pcl::PCLPointCloud2& message)
@@ -102,12 +153,17 @@ std::vector<EvaluationFrame> recordedFrames(const std::string& labels_file)
   try {
     const Json root = Json::parse(stream);
     const std::filesystem::path folder = std::filesystem::path(labels_file).parent_path();
-    for (const auto& [name, scene] : root.at("scenes").items()) {
-      const Recording recording = parse((folder / (name + ".pcd")).string(), root.at("capture_radius"), scene);
+    const double capture_radius = captureRadius(root.at("capture_radius"));
+    const Json& scenes = root.at("scenes");
+    if (!scenes.is_object()) {
+      throw std::runtime_error("scenes is no object");
+    }
+    for (const auto& [name, scene] : scenes.items()) {
+      const Recording recording = parse((folder / fileOf(name)).string(), capture_radius, scene);
       frames.push_back({"recorded", name, 0, [recording] { return load(recording); }});
     }
   } catch (const std::exception& error) {
-    throw std::runtime_error(labels_file + ": " + error.what());
+    throw std::runtime_error(labels_file + ": " + oneLine(error.what()));
   }
   return frames;
 }

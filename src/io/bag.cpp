@@ -1,5 +1,7 @@
 #include "io/bag.h"
 
+#include "io/bag_check.h"
+
 #include <ros/serialization.h>
 #include <rosbag/bag.h>
 #include <rosbag/query.h>
@@ -65,8 +67,12 @@ private:
 
 std::string join(const std::vector<std::string>& words)
 {
+  constexpr std::size_t kLongest = 500;
   std::string text;
   for (const std::string& word : words) {
+    if (text.size() + word.size() > kLongest) {
+      return text + ", ...";
+    }
     text += (text.empty() ? "" : ", ") + word;
   }
   return text;
@@ -146,12 +152,11 @@ void readBagClouds(const std::string& path, const std::string& topic, const BagV
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw CloudError(std::filesystem::is_directory(status) ? "is a folder" : "is no regular file");
   }
+  checkBag(path);
   try {
     rosbag::Bag bag(path, rosbag::bagmode::Read);
     rosbag::View view(bag, rosbag::TopicQuery(chooseTopic(bag, topic)));
     visitMessages(view, visitor);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw CloudError("the bag has no index: it was not closed, or is truncated (rosbag reindex may help)");
   } catch (const rosbag::BagException& error) {
     throw CloudError(std::string("cannot be read as a bag: ") + error.what());
   } catch (const std::bad_alloc&) {

@@ -226,6 +226,36 @@ TEST(ConfigFromYaml, RefusesWithNameValueAndRange)
   EXPECT_THROW(configFromYamlFile("/", Config()), ParameterError);
 }
 
+/// What a file holds is quoted in one line, however long.
+TEST(ConfigFromYaml, AnswersWithOneLine)
+{
+  const std::string long_word(100000, 'x'), lines = "\"first\\nsecond\\e[31m\"";
+  for (const std::string& value : {long_word, lines, std::string("[1, 2]"), "{a: " + long_word + ", b: [*]}"}) {
+    for (const char* name : {"preset", "estimation/estimator", "hand/capture_radius", "sampling/samples", "unknown"}) {
+      const std::string message = messageOf(name + std::string(": ") + value);
+      EXPECT_FALSE(message.empty());
+      EXPECT_LT(message.size(), 500U);
+      EXPECT_EQ(message.find_first_of("\n\x1b"), std::string::npos) << message;
+    }
+    EXPECT_LT(messageOf(value + ": 1").size(), 500U);
+  }
+}
+
+/// Texts that would need much memory or a deep stack.
+TEST(ConfigFromYaml, RefusesWhatIsTooLongOrTooDeep)
+{
+  EXPECT_NE(messageOf(std::string(1000001, '#')).find("longer than"), std::string::npos);
+  EXPECT_EQ(messageOf(std::string(1000000, '#')), "");
+  EXPECT_THROW(configFromYamlFile("/dev/zero", Config()), ParameterError);
+  for (const std::string& opening : {"[", "{", "[{", "- ", "? ", "a: {", "[&a ", "!t ["}) {
+    std::string text;
+    while (text.size() < 100000) {
+      text += opening;
+    }
+    EXPECT_NE(messageOf(text), "") << opening;
+  }
+}
+
 /// Puts every number outside its range, one at a time.
 class OutOfRange
 {

@@ -566,6 +566,32 @@ TEST_F(EvaluationFiles, RecordingsThatCannotBeReadAreErrorsWithThePath)
                            "{\"scenes\": {\"a\": {\"affordances\": [[-]], \"ignore\": []}}, \"capture_radius\": 1}"}) {
     EXPECT_EQ(of_file(write("bad.json", text)).find((folder_ / "bad.json").string() + ": "), 0U) << text;
   }
+  const auto of_scene = [&](const std::string& name, const std::string& scene, const std::string& radius = "0.04") {
+    return of_file(
+        write("bad.json", "{\"scenes\": {\"" + name + "\": " + scene + "}, \"capture_radius\": " + radius + "}"));
+  };
+  const std::string good = R"({"affordances": [[1]], "ignore": [4294967295]})";
+  EXPECT_EQ(of_scene("a", good), "nothing thrown");
+  for (const std::string object : {"-1", "1.5", "1e300", "4294967296", "null", "\"1\"", "[1]"}) {
+    const std::string grasped = "{\"affordances\": [[" + object + "]], \"ignore\": []}";
+    const std::string ignored = "{\"affordances\": [], \"ignore\": [" + object + "]}";
+    EXPECT_NE(of_scene("a", grasped).find("is no label of an object"), std::string::npos) << object;
+    EXPECT_NE(of_scene("a", ignored).find("is no label of an object"), std::string::npos) << object;
+  }
+  EXPECT_NE(of_scene("a", R"({"affordances": 5, "ignore": []})").find("5 is no list"), std::string::npos);
+  EXPECT_NE(of_scene("a", R"({"affordances": [], "ignore": null})").find("null is no list"), std::string::npos);
+  for (const char* name : {"", "../a", "/etc/a", "a/b", "a\\nb"}) {
+    EXPECT_NE(of_scene(name, good).find("is no name of a scene"), std::string::npos) << name;
+  }
+  for (const char* radius : {"0", "-1", "null"}) {
+    EXPECT_NE(of_scene("a", good, radius).find("bad.json: "), std::string::npos) << radius;
+    EXPECT_NE(of_scene("a", good, radius), "nothing thrown") << radius;
+  }
+  const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+  EXPECT_NE(of_scene("a", "{\"affordances\": [" + deep + "], \"ignore\": []}").find("array is no label"),
+            std::string::npos);
+  const std::string long_reason = of_file(write("bad.json", "\"" + std::string(100000, 'x')));
+  EXPECT_LT(long_reason.size(), 1000U);
   const std::string path = write("labels.json", R"({"capture_radius": 0.04, "scenes":
       {"absent": {"affordances": [], "ignore": []}, "plain": {"affordances": [], "ignore": []}}})");
   pcl::PointCloud<pcl::PointXYZ> plain;

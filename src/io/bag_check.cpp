@@ -1,0 +1,327 @@
+#include "io/bag_check.h"
+
+#include "grasp_affordances/point_cloud2.h"
+
+#include <bzlib.h>
+#include <rosbag/constants.h>
+#include <roslz4/lz4s.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+constexpr std::uint32_t kMostFieldBytes = 1000000;   // roscpp refuses longer fields
+constexpr std::uint32_t kMostChunkBytes = 1U << 30;  // when unpacked
+constexpr std::uint32_t kNanosecondsPerSecond = 1000000000;
+constexpr std::size_t kLongestName = 255;
+
+void require(bool holds, const std::string& reason)
+{
+  if (!holds) {
+    throw CloudError("the bag is damaged: " + reason);
+  }
+}
+
+/// Bytes of a known number, of a file or in memory.
+struct Region
+{
+  std::uint64_t size = 0;
+  std::function<void(std::uint64_t at, void* to, std::size_t size)> copy;
+
+  std::string read(std::uint64_t at, std::uint64_t length, const char* of) const
+  {
+    require(at <= size && length <= size - at, std::string(of) + " reaches beyond its end");
+    std::string bytes(length, '\0');
+    copy(at, bytes.data(), length);
+    return bytes;
+  }
+
+  std::uint32_t number(std::uint64_t at, const char* of) const
+  {
+    std::uint32_t value;
+    std::memcpy(&value, read(at, sizeof(value), of).data(), sizeof(value));
+    return value;
+  }
+};
+
+template <typename T>
+T numberAt(const std::string& bytes, std::size_t at)
+{
+  T value;
+  std::memcpy(&value, &bytes[at], sizeof(value));
+  return value;
+}
+
+/// Fields NAME=VALUE of a header, each behind its length.
+class Fields
+{
+public:
+  explicit Fields(const std::string& header)
+  {
+    for (std::size_t at = 0; at < header.size();) {
+      require(header.size() - at >= 4, "a header ends within a field");
+      const auto length = numberAt<std::uint32_t>(header, at);
+      at += 4;
+      require(length <= kMostFieldBytes && length <= header.size() - at, "a field reaches beyond its header");
+      const std::size_t separator = header.find('=', at);
+      require(separator < at + length, "a field has no name");
+      require(
+          values_.emplace(header.substr(at, separator - at), header.substr(separator + 1, at + length - separator - 1))
+              .second,
+          "a header has a field twice");
+      at += length;
+    }
+  }
+
+  bool has(const std::string& name) const { return values_.count(name) != 0; }
+
+  const std::string& text(const std::string& name) const
+  {
+    const auto found = values_.find(name);
+    require(found != values_.end(), "a header has no field " + name);
+    return found->second;
+  }
+
+  template <typename T>
+  T number(const std::string& name) const
+  {
+    const std::string& value = text(name);
+    require(value.size() == sizeof(T), "the field " + name + " has the wrong size");
+    return numberAt<T>(value, 0);
+  }
+
+private:
+  std::map<std::string, std::string> values_;
+};
+
+/// A header and data behind it, each behind its length.
+struct Record
+{
+  Fields header;
+  std::uint64_t data;  // where it begins
+  std::uint32_t size;  // of the data
+
+  std::uint64_t end() const { return data + size; }
+};
+
+Record readRecord(const Region& region, std::uint64_t at, std::uint8_t op, const char* of)
+{
+  const std::uint32_t header_size = region.number(at, of);
+  Fields header(region.read(at + 4, header_size, of));
+  const std::uint64_t data = at + 4 + header_size + 4;
+  Record record{std::move(header), data, region.number(data - 4, of)};
+  require(record.header.number<std::uint8_t>(rosbag::OP_FIELD_NAME) == op, std::string("there is no ") + of);
+  require(record.end() <= region.size, std::string(of) + " reaches beyond its end");
+  return record;
+}
+
+void requireName(const std::string& name, const char* of)
+{
+  const auto is_printable = [](char c) { return std::isgraph(static_cast<unsigned char>(c)) != 0; };
+  require(name.size() <= kLongestName && std::all_of(name.begin(), name.end(), is_printable),
+          std::string("the ") + of + " of a connection is no name");
+}
+
+/// roslz4 copies a block into a buffer of the size that the frame's header names, whatever the size of the block.
+void requireSoundLz4(const std::string& frame)
+{
+  constexpr std::size_t kHeader = 7, kEnd = 8;  // magic number, flags, sizes, check; an empty block, checksum
+  require(frame.size() >= kHeader + kEnd, "a chunk ends within its LZ4 frame");
+  const int size_id = static_cast<unsigned char>(frame[5]) >> 4 & 7;
+  const int most = size_id < 4 ? -1 : roslz4_blockSizeFromIndex(size_id);
+  require(most > 0, "an LZ4 frame has no block size");
+  for (std::size_t at = kHeader;;) {
+    require(frame.size() - at >= kEnd, "an LZ4 frame has no end");
+    const std::uint32_t size = numberAt<std::uint32_t>(frame, at) & 0x7fffffffU;
+    at += 4;
+    if (size == 0) {
+      require(frame.size() - at == 4, "something follows an LZ4 frame");
+      return;
+    }
+    require(size <= static_cast<std::uint32_t>(most) && size <= frame.size() - at, "an LZ4 block is too large");
+    at += size;
+  }
+}
+
+/// The content of a chunk, which refers to the file where that is not compressed.
+Region unpack(const Region& file, const Record& chunk)
+{
+  const std::string& compression = chunk.header.text(rosbag::COMPRESSION_FIELD_NAME);
+  const auto size = chunk.header.number<std::uint32_t>(rosbag::SIZE_FIELD_NAME);
+  if (compression == rosbag::COMPRESSION_NONE) {
+    require(size == chunk.size, "a chunk is not as long as it claims");
+    return {size, [&file, begin = chunk.data](std::uint64_t at, void* to, std::size_t length) {
+              file.copy(begin + at, to, length);
+            }};
+  }
+  require(size <= kMostChunkBytes && chunk.size <= kMostChunkBytes, "a compressed chunk claims more than 1 GiB");
+  std::string packed = file.read(chunk.data, chunk.size, "a chunk");
+  const std::shared_ptr<char[]> bytes(new char[size]);  // of which only as much is used as there is
+  unsigned int unpacked = size;
+  bool good = false;
+  if (compression == rosbag::COMPRESSION_LZ4) {
+    requireSoundLz4(packed);
+    good = roslz4_buffToBuffDecompress(packed.data(), chunk.size, bytes.get(), &unpacked) == ROSLZ4_OK;
+  } else if (compression == rosbag::COMPRESSION_BZ2) {
+    good = BZ2_bzBuffToBuffDecompress(bytes.get(), &unpacked, packed.data(), chunk.size, 0, 0) == BZ_OK;
+  } else {
+    require(false, "a chunk is of an unknown compression");
+  }
+  require(good && unpacked == size, "a chunk does not unpack to what it claims");
+  return {size, [bytes](std::uint64_t at, void* to, std::size_t length) { std::memcpy(to, bytes.get() + at, length); }};
+}
+
+/// Connections of a bag by number: whether they are of clouds.
+using Connections = std::map<std::uint32_t, bool>;
+
+class BagCheck
+{
+public:
+  explicit BagCheck(const Region& file) : file_(file) {}
+
+  void run()
+  {
+    const std::string kVersion = "#ROSBAG V2.0\n", kOldVersion = "#ROSBAG V1.";
+    const std::string version = file_.read(0, std::min<std::uint64_t>(kVersion.size(), file_.size), "the bag");
+    if (version.compare(0, kOldVersion.size(), kOldVersion) == 0) {
+      throw CloudError("the bag is older than version 2.0 (rosbag fix may help)");
+    }
+    if (version != kVersion) {
+      throw CloudError("cannot be read as a bag: it does not begin with " + kVersion.substr(0, kVersion.size() - 1));
+    }
+    const Record header = readRecord(file_, kVersion.size(), rosbag::OP_FILE_HEADER, "the header of the bag");
+    if (header.header.has(rosbag::ENCRYPTOR_FIELD_NAME)) {
+      throw CloudError("the bag is encrypted (rosbag decrypt may help)");
+    }
+    position_ = header.header.number<std::uint64_t>(rosbag::INDEX_POS_FIELD_NAME);
+    if (position_ == 0) {
+      throw CloudError("the bag has no index: it was not closed, or is truncated (rosbag reindex may help)");
+    }
+    readConnections(header.header.number<std::uint32_t>(rosbag::CONNECTION_COUNT_FIELD_NAME));
+    readChunks(header.header.number<std::uint32_t>(rosbag::CHUNK_COUNT_FIELD_NAME));
+  }
+
+private:
+  void readConnections(std::uint32_t count)
+  {
+    for (; count > 0; --count) {
+      const Record record = readRecord(file_, position_, rosbag::OP_CONNECTION, "a connection");
+      requireName(record.header.text(rosbag::TOPIC_FIELD_NAME), "topic");
+      const Fields connection(file_.read(record.data, record.size, "a connection"));
+      const std::string type = connection.has("type") ? connection.text("type") : "";
+      requireName(type, "type");
+      // The first of several of one number counts.
+      connections_.emplace(record.header.number<std::uint32_t>(rosbag::CONNECTION_FIELD_NAME),
+                           type == "sensor_msgs/PointCloud2");
+      position_ = record.end();
+    }
+  }
+
+  void readChunks(std::uint32_t count)
+  {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> extents;  // of chunks with their indexes
+    for (; count > 0; --count) {
+      const Record record = readRecord(file_, position_, rosbag::OP_CHUNK_INFO, "the information on a chunk");
+      require(record.header.number<std::uint32_t>(rosbag::VER_FIELD_NAME) == rosbag::CHUNK_INFO_VERSION,
+              "the information on a chunk is of another version");
+      record.header.number<std::uint64_t>(rosbag::START_TIME_FIELD_NAME);
+      record.header.number<std::uint64_t>(rosbag::END_TIME_FIELD_NAME);
+      const auto indexes = record.header.number<std::uint32_t>(rosbag::COUNT_FIELD_NAME);
+      require(record.size == std::uint64_t{8} * indexes, "the information on a chunk is not as long as it claims");
+      const std::string data = file_.read(record.data, record.size, "the information on a chunk");
+      std::set<std::uint32_t> connections;
+      for (std::size_t at = 0; at < data.size(); at += 8) {
+        connections.insert(numberAt<std::uint32_t>(data, at));
+      }
+      const auto begin = record.header.number<std::uint64_t>(rosbag::CHUNK_POS_FIELD_NAME);
+      extents.emplace_back(begin, readChunk(begin, connections.size()));
+      position_ = record.end();
+    }
+    std::sort(extents.begin(), extents.end());
+    for (std::size_t i = 1; i < extents.size(); ++i) {
+      require(extents[i - 1].second <= extents[i].first, "chunks overlap");
+    }
+  }
+
+  /// @return where the indexes end that follow it
+  std::uint64_t readChunk(std::uint64_t begin, std::size_t indexes)
+  {
+    const Record chunk = readRecord(file_, begin, rosbag::OP_CHUNK, "a chunk");
+    std::vector<std::uint32_t> clouds;  // where in the chunk they are
+    std::uint64_t position = chunk.end();
+    for (; indexes > 0; --indexes) {
+      const Record record = readRecord(file_, position, rosbag::OP_INDEX_DATA, "the index of a chunk");
+      readIndex(record, clouds);
+      position = record.end();
+    }
+    if (!clouds.empty()) {
+      checkMessages(unpack(file_, chunk), clouds);
+    }
+    return position;
+  }
+
+  void readIndex(const Record& record, std::vector<std::uint32_t>& clouds)
+  {
+    require(record.header.number<std::uint32_t>(rosbag::VER_FIELD_NAME) == rosbag::INDEX_VERSION,
+            "an index is of another version");
+    const auto connection = connections_.find(record.header.number<std::uint32_t>(rosbag::CONNECTION_FIELD_NAME));
+    require(connection != connections_.end(), "an index is of no connection");
+    const auto count = record.header.number<std::uint32_t>(rosbag::COUNT_FIELD_NAME);
+    constexpr std::size_t kEntry = 12;  // bytes: seconds, nanoseconds, place in the chunk
+    require(record.size == std::uint64_t{kEntry} * count, "an index is not as long as it claims");
+    const std::string data = file_.read(record.data, record.size, "an index");
+    for (std::size_t at = 0; at < data.size(); at += kEntry) {
+      require(numberAt<std::uint32_t>(data, at + 4) < kNanosecondsPerSecond, "a message has no time");
+      if (connection->second) {
+        clouds.push_back(numberAt<std::uint32_t>(data, at + 8));
+      }
+    }
+  }
+
+  static void checkMessages(const Region& chunk, std::vector<std::uint32_t>& places)
+  {
+    std::sort(places.begin(), places.end());
+    std::uint64_t end = 0;
+    for (const std::uint32_t place : places) {
+      require(place >= end, "messages overlap");
+      end = readRecord(chunk, place, rosbag::OP_MSG_DATA, "a message").end();
+    }
+  }
+
+  const Region& file_;
+  Connections connections_;
+  std::uint64_t position_ = 0;  // in the index of the bag
+};
+
+}  // namespace
+
+void checkBag(const std::string& path)
+{
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  if (!stream) {
+    throw CloudError(std::string("cannot be read as a bag: ") + std::strerror(errno));
+  }
+  const Region file{
+      static_cast<std::uint64_t>(stream.tellg()), [&stream](std::uint64_t at, void* to, std::size_t size) {
+        stream.seekg(static_cast<std::streamoff>(at));
+        require(!!stream.read(static_cast<char*>(to), static_cast<std::streamsize>(size)), "it cannot be read");
+      }};
+  BagCheck(file).run();
+}
+
+}  // namespace grasp_affordances
