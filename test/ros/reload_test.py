@@ -17,7 +17,7 @@ from helpers import ABNORMAL_ENDS, Listener, Nodelets, Process, manager, publish
 from raw_peers import RawSubscriber
 from virtual_devices import VirtualDevices, device
 
-WARM_UP = 5        # cycles: what pluginlib, TBB and the allocator keep for good
+WARM_UP = 4        # cycles: what pluginlib, TBB and the allocator keep for good
 MASTER_THREADS = 3
 MEMORY = 80         # MB: the allocator keeps some for each thread that there was at a time
 BOND_TIMEOUT = 4   # s, bond's
