@@ -2,6 +2,7 @@
 """Nodelets that are loaded and unloaded again and again while clouds flow, and what becomes of manager, loader and
 nodelet when one of them is killed. ~cycles: how often the localizer is loaded; ~other_cycles: the other nodelets."""
 
+import os
 import signal
 import time
 import unittest
@@ -17,11 +18,16 @@ from helpers import ABNORMAL_ENDS, Listener, Nodelets, Process, manager, publish
 from raw_peers import RawSubscriber
 from virtual_devices import VirtualDevices, device
 
-WARM_UP = 5        # cycles: what pluginlib, TBB and the allocator keep for good
+WARM_UP = 4        # cycles: what pluginlib and TBB keep for good
 MASTER_THREADS = 3
-MEMORY = 80         # MB: the allocator keeps some for each thread that there was at a time
+MEMORY = 5          # MB
 BOND_TIMEOUT = 4   # s, bond's
 SLACK = 5          # s, of a busy machine
+
+
+def one_heap(environment=os.environ):
+    """In which the allocator keeps no memory for each thread that there once was at a time."""
+    return dict(environment, MALLOC_ARENA_MAX='1')
 
 
 def loader():
@@ -73,27 +79,27 @@ class Reload(unittest.TestCase):
         self.assertLess(usage(host).memory - before.memory, MEMORY)
 
     def test_localizer(self):
-        with publisher(scene('table'), rate=30), manager() as host:
+        with publisher(scene('table'), rate=30), manager(one_heap()) as host:
             rospy.set_param('localizer', {'lazy': False})
             self.check_cycles(host, '/localizer', 'LocalizerNodelet', '/localizer/statistics',
                               LocalizationStatistics)
             self.check_clean_end(host)
 
     def test_several_cameras(self):
-        with publisher(scene('table'), rate=30), manager() as host:
+        with publisher(scene('table'), rate=30), manager(one_heap()) as host:
             rospy.set_param('multi_camera', {'target_frame': 'camera_depth_optical_frame', 'sync_slop': 1.0})
             self.check_cycles(host, '/multi_camera', 'MultiCameraNodelet', '/multi_camera/statistics',
                               LocalizationStatistics, (('/points_1', '/points'), ('/points_2', '/points')))
             self.check_clean_end(host)
 
     def test_simulated_camera(self):
-        with manager() as host:
+        with manager(one_heap()) as host:
             self.check_cycles(host, '/simulated/camera', 'SimulatedCameraNodelet',
                               '/simulated/depth/points', PointCloud2)
             self.check_clean_end(host)
 
     def test_driver(self):
-        with VirtualDevices(device()) as devices, manager(devices.environment) as host:
+        with VirtualDevices(device()) as devices, manager(one_heap(devices.environment)) as host:
             self.check_cycles(host, '/camera/driver', 'XtionNodelet', '/camera/depth/image_raw',
                               Image)
             self.check_clean_end(host)
