@@ -54,9 +54,11 @@ Shell mirrored(Shell shell)
 constexpr std::uint32_t kColumns = 637;
 static_assert((kColumns - 1) % 4 == 0);
 
+// Of several surfaces that end on the left of a shadow each is continued to the nearest that fits on the right, which
+// is not always the one that the mirror image is continued from: a few samples meet another hidden surface there.
 TEST(Properties, AMirroredImageHasMirroredShells)
 {
-  Tally all;
+  Tally all, continued;
   forEachCase([&](PropertyCase property) {
     if (property.seed % 2 == 0) {
       property.config.estimation.normals_mode = NormalsMode::sparse;
@@ -68,14 +70,23 @@ TEST(Properties, AMirroredImageHasMirroredShells)
     for (const std::uint32_t point : points) {
       mirrored_points.push_back(mirrored(point, cloud.width));
     }
-    GivenSamples before(alone(cloud), property.config), after(alone(mirrored_cloud), property.config);
-    const auto expected = before.examine(samplesOf(points)), actual = after.examine(samplesOf(mirrored_points));
-    all.add(compare(
-        expected, actual, [](const Shell& shell) { return mirrored(shell); }, kRounding));
+    const auto compareWith = [&](const Config& config) {
+      GivenSamples before(alone(cloud), config), after(alone(mirrored_cloud), config);
+      const auto expected = before.examine(samplesOf(points)), actual = after.examine(samplesOf(mirrored_points));
+      return compare(
+          expected, actual, [](const Shell& shell) { return mirrored(shell); }, kRounding);
+    };
+    if (property.config.shell.continue_surfaces) {
+      continued.add(compareWith(property.config));
+      property.config.shell.continue_surfaces = false;
+    }
+    all.add(compareWith(property.config));
   });
   conclude("mirrored", all);
   EXPECT_EQ(0U, all.flipped);
   EXPECT_EQ(0U, all.off);
+  EXPECT_LE(continued.flipped, continued.samples / 200);
+  EXPECT_LE(continued.off, continued.shells / 20);
 }
 
 }  // namespace
