@@ -29,7 +29,7 @@ std::vector<Color> pointColors(const PointCloud2& message)
     for (std::size_t row = 0; row < message.height; ++row) {
       const std::uint8_t* point = message.data.data() + row * message.row_step + field.offset;
       for (std::size_t column = 0; column < message.width; ++column, point += message.point_step) {
-        std::uint32_t rgb;
+        std::uint32_t rgb = 0;
         std::memcpy(&rgb, point, sizeof(rgb));
         const auto component = [rgb](int shift) { return static_cast<float>((rgb >> shift) & 0xFFU) / 255.0F; };
         colors.push_back({component(16), component(8), component(0)});
