@@ -12,8 +12,8 @@ namespace grasp_affordances::fuzz
 namespace
 {
 
-constexpr std::size_t kMostPoints = 3072;  // of all views together
-constexpr int kMostSamples = 64;
+constexpr std::size_t kMostPoints = 1536;  // of all views together
+constexpr int kMostSamples = 32;
 constexpr double kMostCells = 3000;  // of the table in which the shell search counts points
 
 const double kCaptureRadii[] = {0.002, 0.01, 0.026, 0.045, 0.1, 0.5};
@@ -274,7 +274,7 @@ ByteWriter encodeConfig(const SeedConfig& config)
 {
   ByteWriter output;
   output.byte(config.preset).byte(config.estimator).byte(config.kind).byte(config.normals_mode);
-  return output.byte(47).byte(config.capture_radius).byte(0);
+  return output.byte(15).byte(config.capture_radius).byte(0);
 }
 
 /// What decodeCloud reads before the points.

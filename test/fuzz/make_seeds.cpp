@@ -91,8 +91,8 @@ void writeCoreSeeds(const Seeds& seeds)
   for (const char* scene : {"table", "household1", "mugs"}) {
     const test::LabelledFrame frame = test::captureScene(scene, 1);
     const std::size_t middle = middleOfAffordance(frame);
-    const Cloud near = crop(frame.cloud, middle, 56, 54, 1), wide = crop(frame.cloud, middle, 56, 54, 2);
-    const Cloud narrow = crop(frame.cloud, middle, 24, 54, 2);
+    const Cloud near = crop(frame.cloud, middle, 40, 38, 1), wide = crop(frame.cloud, middle, 40, 38, 2);
+    const Cloud narrow = crop(frame.cloud, middle, 20, 38, 2);
     for (unsigned preset = 0; preset < 2; ++preset) {
       for (unsigned estimator = 0; estimator < 3; ++estimator) {
         const SeedConfig config{preset, estimator, estimator % 2, preset, 3};

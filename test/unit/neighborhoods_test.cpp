@@ -148,6 +148,30 @@ TEST(NeighborhoodSearch, FindsCoincidentPoints)
   EXPECT_EQ(found.size(), 20U);
 }
 
+/// The tree goes through the whole cloud while spheres hold many of its points: its answers stay the same.
+TEST(NeighborhoodSearch, FindsTheSameInACrowd)
+{
+  constexpr std::uint64_t kSeed = 7;
+  Random random(kSeed);
+  Points points;
+  for (int i = 0; i < 4000; ++i) {
+    const double size = i % 2 == 0 ? 0.005 : 0.5;
+    points.emplace_back(random.uniform(-size, size), random.uniform(-size, size), 1.0 + random.uniform(-size, size));
+  }
+  const Cloud cloud = cloudOf(points);
+  const auto tree = makeTreeSearch(cloud);
+  Neighborhood found;
+  for (int i = 0; i < 60; ++i) {
+    const auto point = static_cast<std::size_t>(random.uniform(0, 4000));
+    const auto radius = static_cast<float>(random.uniform(0.001, 0.1));
+    tree->withinRadius(cloud.point(point), radius, found);
+    ASSERT_EQ(indicesOf(found), indicesOf(bruteForceNeighborhood(cloud, cloud.point(point), radius))) << i;
+    const auto k = static_cast<std::size_t>(random.uniform(1, 700));
+    tree->nearest(cloud.point(point), k, found);
+    ASSERT_EQ(indicesOf(found), bruteForceNearest(cloud, cloud.point(point), k)) << i;
+  }
+}
+
 TEST(NeighborhoodSearch, FindsPointsWhoseDistancesOverflow)
 {
   Points points;
