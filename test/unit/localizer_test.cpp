@@ -159,6 +159,22 @@ TEST(Localizer, CountsExactlyCoplanarNeighborhoodsAsDegenerate)
   EXPECT_EQ(count(result, Outcome::degenerate), result.sampled);
 }
 
+TEST(Localizer, FitsNeighborhoodsOfTheLeastNumberOfPoints)
+{
+  constexpr int kPoints = 30;
+  Random random(1);
+  Points near;
+  for (int i = 0; i < kPoints; ++i) {
+    near.emplace_back(random.uniform(-0.005, 0.005), random.uniform(-0.005, 0.005), random.uniform(1.0, 1.005));
+  }
+  Config config = presetConfig("paper");
+  config.sampling.samples = 20;
+  config.neighborhood.min_points = kPoints;
+  EXPECT_EQ(count(Localizer(config).localize(cloudOf(near)), Outcome::too_few_points), 0U);
+  config.neighborhood.min_points = kPoints + 1;
+  EXPECT_EQ(count(Localizer(config).localize(cloudOf(near)), Outcome::too_few_points), 20U);
+}
+
 TEST(Localizer, DoesNotDependOnCloudsSeenBefore)
 {
   const Cloud table = captureScene("table", 1).cloud;

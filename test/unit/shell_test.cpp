@@ -124,6 +124,20 @@ TEST(ShellSearch, AsksForMorePointsOverALongerExtent)
 INSTANTIATE_TEST_SUITE_P(ShellSearch, BothPresets, testing::Values("paper", "localizer"),
                          [](const testing::TestParamInfo<std::string>& info) { return info.param; });
 
+TEST(ShellSearch, NeedsNoMoreThanTheLeastNumberOfPointsInside)
+{
+  const Points points = bar(0.012, 0.06);
+  ShellConfig config = paperShell();
+  const auto any = searchShell(points, 0.0125, config);
+  ASSERT_EQ(any.status, ShellSearchResult::found);
+  config.min_points_inside = static_cast<int>(any.points_inside);
+  const auto enough = searchShell(points, 0.0125, config);
+  EXPECT_EQ(enough.status, ShellSearchResult::found);
+  EXPECT_EQ(enough.points_inside, any.points_inside);
+  ++config.min_points_inside;
+  EXPECT_NE(searchShell(points, 0.0125, config).status, ShellSearchResult::found) << "all are inside already";
+}
+
 TEST(ShellSearch, ToleratesFewerPointsInTheGapThanBlockIt)
 {
   Points points = bar(0.012, 0.06);
