@@ -11,11 +11,11 @@ namespace grasp_affordances
 
 void CameraInfoInput::subscribe(ros::NodeHandle& node_handle, const std::string& topic)
 {
-  subscriber_ =
-      node_handle.subscribe<sensor_msgs::CameraInfo>(topic, 1, [this](const sensor_msgs::CameraInfoConstPtr& message) {
+  subscriber_ = node_handle.subscribe<sensor_msgs::CameraInfo>(
+      topic, 1, gate_.guarded([this](const sensor_msgs::CameraInfoConstPtr& message) {
         const std::lock_guard<std::mutex> lock(mutex_);
         latest_ = message;
-      });
+      }));
   const std::lock_guard<std::mutex> lock(mutex_);
   topic_ = subscriber_.getTopic();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "grasp_affordances/cloud.h"
+#include "nodelets/callback_gate.h"
 #include "nodelets/throttle.h"
 
 #include <ros/node_handle.h>
@@ -31,6 +32,7 @@ private:
   std::string topic_;
   sensor_msgs::CameraInfoConstPtr latest_;
   Throttle complaints_;
+  CallbackGate gate_;
 };
 
 }  // namespace grasp_affordances

@@ -40,10 +40,10 @@ void HandleSelection::advertise(ros::NodeHandle& private_node_handle, const std:
 
   select_service_ = private_node_handle.advertiseService(
       "select", boost::function<bool(SelectHandle::Request&, SelectHandle::Response&)>(
-                    [this](auto& request, auto& response) { return answerSelect(request, response); }));
+                    gate_.guarded([this](auto& request, auto& response) { return answerSelect(request, response); })));
   best_service_ = private_node_handle.advertiseService(
       "best", boost::function<bool(BestHandle::Request&, BestHandle::Response&)>(
-                  [this](auto& request, auto& response) { return answerBest(request, response); }));
+                  gate_.guarded([this](auto& request, auto& response) { return answerBest(request, response); })));
 }
 
 bool HandleSelection::anybodyListens() const
@@ -54,7 +54,8 @@ bool HandleSelection::anybodyListens() const
 
 void HandleSelection::close()
 {
-  select_service_.shutdown();  // waits for a call that is being answered
+  gate_.close();
+  select_service_.shutdown();
   best_service_.shutdown();
   if (display_) {
     display_->close();

@@ -4,6 +4,7 @@
 #include "grasp_affordances/SelectHandle.h"
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/handle.h"
+#include "nodelets/callback_gate.h"
 #include "nodelets/hand_pose_choice.h"
 #include "nodelets/handle_display.h"
 
@@ -90,6 +91,8 @@ private:
   HandPoseChoice choice_;
   std::optional<std::size_t> hand_pose_;  // index of the chosen one
   bool complained_ = false;               // that the selected handle has none
+
+  CallbackGate gate_;  // of calls
 };
 
 }  // namespace grasp_affordances

@@ -31,7 +31,7 @@ std::string joined(const std::vector<std::string>& lines)
 void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const std::string& name, bool lazy,
                                     bool on_demand, std::function<void()> subscribe, std::function<void()> unsubscribe)
 {
-  const auto changed = [this](const ros::SingleSubscriberPublisher&) { updateSubscriptions(); };
+  const auto changed = gate_.guarded([this](const ros::SingleSubscriberPublisher&) { updateSubscriptions(); });
   {
     // Somebody may connect to a publisher, in another thread, before advertise() has returned it or before the next
     // one exists: the callback has to wait for all of them.
@@ -46,7 +46,7 @@ void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const 
     hand_poses_ = private_node_handle.advertise<geometry_msgs::PoseArray>("hand_poses", 1, changed, changed);
     markers_ = private_node_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
     statistics_ = private_node_handle.advertise<LocalizationStatistics>("statistics", 1, changed, changed);
-    selection_.advertise(private_node_handle, name_, [this] { updateSubscriptions(); });
+    selection_.advertise(private_node_handle, name_, gate_.guarded([this] { updateSubscriptions(); }));
     open_ = true;
   }
   updateSubscriptions();
@@ -55,6 +55,7 @@ void LocalizationOutputs::advertise(ros::NodeHandle& private_node_handle, const 
 void LocalizationOutputs::close()
 {
   selection_.close();
+  gate_.close();
   {
     const std::lock_guard<std::mutex> lock(connections_mutex_);
     open_ = false;

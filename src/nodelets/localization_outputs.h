@@ -5,6 +5,7 @@
 #include "grasp_affordances/LocalizationStatistics.h"
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
+#include "nodelets/callback_gate.h"
 #include "nodelets/handle_selection.h"
 #include "nodelets/handle_tracking.h"
 #include "nodelets/markers.h"
@@ -109,6 +110,8 @@ private:
   Throttle rejections_;
   Throttle missing_transforms_;
   Throttle warnings_;
+
+  CallbackGate gate_;  // of connections
 };
 
 }  // namespace grasp_affordances

@@ -3,6 +3,7 @@
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/localizer.h"
 #include "grasp_affordances/point_cloud2.h"
+#include "nodelets/callback_gate.h"
 #include "nodelets/camera_info_input.h"
 #include "nodelets/conversions.h"
 #include "nodelets/localization_outputs.h"
@@ -84,6 +85,7 @@ public:
     // publishers still exist.
     ending_ = true;
     outputs_.close();
+    gate_.close();
     if (transforms_) {  // it started
       transforms_->close();
     }
@@ -144,6 +146,7 @@ private:
   Reconfiguration reconfiguration_;
 
   std::unique_ptr<NewestOnlyWorker<Arrival>> worker_;
+  CallbackGate gate_;  // of clouds
 };
 
 void LocalizerNodelet::onInit()
@@ -186,7 +189,7 @@ void LocalizerNodelet::subscribe()
   ros::NodeHandle& nh = getNodeHandle();
   camera_info_.subscribe(nh, ros::names::append(ros::names::parentNamespace(getName()), "camera_info"));
   points_ = nh.subscribe<sensor_msgs::PointCloud2>(pointsTopic(), kSubscriberQueue,
-                                                   [this](const Points& message) { receive(message); });
+                                                   gate_.guarded([this](const Points& message) { receive(message); }));
 }
 
 void LocalizerNodelet::unsubscribe()

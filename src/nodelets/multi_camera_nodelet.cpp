@@ -2,6 +2,7 @@
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/localizer.h"
 #include "grasp_affordances/point_cloud2.h"
+#include "nodelets/callback_gate.h"
 #include "nodelets/camera_info_input.h"
 #include "nodelets/cloud_synchronizer.h"
 #include "nodelets/localization_outputs.h"
@@ -63,6 +64,7 @@ public:
     // their publishers still exist.
     ending_ = true;
     outputs_.close();
+    gate_.close();
     if (transforms_) {  // it started
       transforms_->close();
     }
@@ -129,6 +131,7 @@ private:
   Reconfiguration reconfiguration_;
 
   std::unique_ptr<NewestOnlyWorker<Arrival>> worker_;
+  CallbackGate gate_;  // of clouds
 };
 
 void MultiCameraNodelet::onInit()
@@ -181,7 +184,8 @@ void MultiCameraNodelet::subscribe()
     views_[i].newest.reset();
     views_[i].camera_info.subscribe(nh, views_[i].camera_info_topic);
     views_[i].points = nh.subscribe<sensor_msgs::PointCloud2>(
-        views_[i].points_topic, kSubscriberQueue, [this, i](const Points& message) { receive(i, message); });
+        views_[i].points_topic, kSubscriberQueue,
+        gate_.guarded([this, i](const Points& message) { receive(i, message); }));
   }
   silence_ =
       nh.createWallTimer(ros::WallDuration(kSilence), [this](const ros::WallTimerEvent&) { complainOfSilence(); });
