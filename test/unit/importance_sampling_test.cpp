@@ -6,6 +6,7 @@
 #include "core/sample_block.h"
 #include "core/sample_draw.h"
 #include "core/thread_team.h"
+#include "core/time_budget.h"
 #include "simulation/camera_orbit.h"
 #include "support/points.h"
 #include "support/scenes.h"
@@ -100,7 +101,8 @@ struct Drawing
       }
       SampleBlock block;
       for (std::size_t i = begin; i < end; i += SampleBlock::kSamples) {
-        block.examine(views, config, i, std::min(end, i + SampleBlock::kSamples), draw.points() + i, &results[i]);
+        block.examine(views, config, i, std::min(end, i + SampleBlock::kSamples), draw.points() + i, &results[i],
+                      TimeBudget(0.0));
       }
       rounds.push_back(end);
       begin = end;
@@ -447,7 +449,7 @@ TEST(ImportanceSampling, EstimatesTheNormalsThatEachRoundNeeds)
       std::vector<SampleResult> expected(by_round.draw.size());
       for (std::size_t i = 0; i < expected.size(); i += SampleBlock::kSamples) {
         const std::size_t end = std::min(expected.size(), i + SampleBlock::kSamples);
-        block.examine(at_once, config, i, end, by_round.draw.points() + i, &expected[i]);
+        block.examine(at_once, config, i, end, by_round.draw.points() + i, &expected[i], TimeBudget(0.0));
       }
       ASSERT_EQ(by_round.rounds.size(), 3U);
       for (std::size_t i = 0; i < expected.size(); ++i) {
