@@ -2,6 +2,7 @@
 
 #include "nodelets/parameter_reader.h"
 
+#include <cstddef>
 #include <regex>
 #include <stdexcept>
 #include <string>
@@ -26,10 +27,12 @@ FrameMode readMode(const std::string& name, const std::string& word, const std::
 void checkUrl(const std::string& name, const std::string& url)
 {
   static const std::regex kAllowed(R"((file://|package://)([\w./+-]|\$\{NAME\}|\$\{ROS_HOME\})+\.(yaml|yml|ini))");
-  if (!url.empty() && !std::regex_match(url, kAllowed)) {
-    throw ParameterError("parameter ~" + name + " is the string '" + url +
-                         "'; it must be empty or file://... or package://..., of letters, digits and any of _./+-, "
-                         "${NAME} and ${ROS_HOME}, and end in .yaml, .yml or .ini");
+  constexpr std::size_t kLongest = 1000;  // characters; std::regex goes one call deeper for each
+  if (!url.empty() && (url.size() > kLongest || !std::regex_match(url, kAllowed))) {
+    throw ParameterError(
+        "parameter ~" + name + " is the string '" + url +
+        "'; it must be empty or file://... or package://..., of at most 1000 letters, digits and any of "
+        "_./+-, ${NAME} and ${ROS_HOME}, and end in .yaml, .yml or .ini");
   }
 }
 

@@ -127,6 +127,7 @@ TEST(XtionParameters, UrlsOfCalibrationsAreNothingButPaths)
                             "file://${ROS_HOME}/camera_info/${NAME}.yaml", "file:///${NAME}.ini"}) {
       EXPECT_EQ(refusal(name, url), "") << url;
     }
+    EXPECT_NE(refusal(name, ("file:///" + std::string(1000000, 'a') + ".yaml").c_str()), "");
     for (const char* url :
          {"file:///tmp/x;touch pwned/depth.yaml", "file:///tmp/$(touch pwned)/depth.yaml",
           "file:///tmp/`id`/depth.yaml", "file:///tmp/a b/depth.yaml", "file:///tmp/x|y/depth.yaml",
