@@ -16,7 +16,7 @@ MINUTES = (1, 10, 30)
 
 # Inputs are small, and so is what may be allocated for one; but the chunk of a bag may unpack to 1 GiB. An input may take
 # a second of processor time, which the fuzzers check themselves; the timeout, of wall time, is for what waits.
-OPTIONS = ["-timeout=20", "-rss_limit_mb=2048", "-detect_leaks=1", "-print_final_stats=1", "-reload=0"]
+OPTIONS = ["-timeout=60", "-rss_limit_mb=2048", "-detect_leaks=1", "-print_final_stats=1", "-reload=0"]
 LONGEST = {"bag": 8192, "config_yaml": 8192, "core": 8192, "labels_json": 4096, "pcd": 4096, "point_cloud2": 4096}
 LARGEST_ALLOCATION = {"bag": 1100}  # MB
 USUAL_ALLOCATION = 256
@@ -49,7 +49,7 @@ class Run:
             self.executions = int(executed.group(1))
 
     def edges_after(self, seconds):
-        return [edges for elapsed, edges, _, _ in self.coverage if elapsed <= seconds][-1]
+        return next((edges for elapsed, edges, _, _ in reversed(self.coverage) if elapsed <= seconds), 0)
 
     def summary(self):
         rate = self.executions / max(self.processor_seconds, 1e-3)

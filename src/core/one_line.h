@@ -16,7 +16,7 @@ inline std::string oneLine(std::string text)
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
   if (text.size() > kLongest) {
-    text = text.substr(0, kLongest - kEnd) + " ... " + text.substr(text.size() - kEnd);
+    text.replace(kLongest - kEnd, text.size() - kLongest, " ... ");
   }
   return text;
 }

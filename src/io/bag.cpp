@@ -154,7 +154,8 @@ void readBagClouds(const std::string& path, const std::string& topic, const BagV
   }
   checkBag(path);
   try {
-    rosbag::Bag bag(path, rosbag::bagmode::Read);
+    rosbag::Bag bag;  // its constructor leaves behind what it has read where it throws
+    bag.open(path, rosbag::bagmode::Read);
     rosbag::View view(bag, rosbag::TopicQuery(chooseTopic(bag, topic)));
     visitMessages(view, visitor);
   } catch (const rosbag::BagException& error) {

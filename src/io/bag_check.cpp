@@ -261,6 +261,8 @@ private:
   std::uint64_t readChunk(std::uint64_t begin, std::size_t indexes)
   {
     const Record chunk = readRecord(file_, begin, rosbag::OP_CHUNK, "a chunk");
+    require(!chunk.header.text(rosbag::COMPRESSION_FIELD_NAME).empty(), "a chunk is of no compression");
+    chunk.header.number<std::uint32_t>(rosbag::SIZE_FIELD_NAME);
     std::vector<std::uint32_t> clouds;  // where in the chunk they are
     std::uint64_t position = chunk.end();
     for (; indexes > 0; --indexes) {

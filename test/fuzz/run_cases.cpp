@@ -1,4 +1,5 @@
 #include "fuzz/cpu_time.h"
+#include "fuzz/crowds.h"
 #include "fuzz/targets.h"
 
 #include <algorithm>
@@ -35,10 +36,10 @@ void run(const Target& target, const std::filesystem::path& file)
   target.run(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   const double seconds = threadCpuSeconds() - start;
   std::printf(" %.3f s\n", seconds);
-  require(seconds < kLongestSeconds, "an input takes at most a second of processor time");
+  require(seconds < longestSeconds(), "an input takes at most a second of processor time");
 }
 
-/// fuzz_cases FOLDER ...: in each, a folder of inputs for each target.
+/// fuzz_cases FOLDER ...: in each, a folder of inputs for each target. And crowds.
 int runCases(int folders, char** folder)
 {
   for (const Target& target : kTargets) {
@@ -51,6 +52,7 @@ int runCases(int folders, char** folder)
     }
     require(files > 0, "every target has inputs");
   }
+  runCrowds();
   return 0;
 }
 
