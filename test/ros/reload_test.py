@@ -2,6 +2,7 @@
 """Nodelets that are loaded and unloaded again and again while clouds flow, and what becomes of manager, loader and
 nodelet when one of them is killed. ~cycles: how often the localizer is loaded; ~other_cycles: the other nodelets."""
 
+import collections
 import os
 import signal
 import time
@@ -20,7 +21,7 @@ from virtual_devices import VirtualDevices, device
 
 WARM_UP = 4        # cycles: what pluginlib and TBB keep for good
 MASTER_THREADS = 3
-MEMORY = 5          # MB
+MEMORY = 15        # MB: less than four clouds, of which two may have been on their way when it took most
 BOND_TIMEOUT = 4   # s, bond's
 SLACK = 5          # s, of a busy machine
 
@@ -110,10 +111,15 @@ class Reload(unittest.TestCase):
         listener.close()
 
     def wait_for_bond(self):
-        """Until both ends of the bond say that they hear each other."""
-        ends = Listener('manager/bond', Status)
-        wait_until(lambda: len({status.instance_id for status in ends.messages() if status.active}) == 2, 'bond')
-        ends.close()
+        """Until both ends of the bond have heard each other: each has said something, a second apart, after the other
+        had. Before that an end that loses the other one waits for it for ever: a trap of nodelet's."""
+        statuses = Listener('manager/bond', Status)
+
+        def formed():
+            said = collections.Counter(status.instance_id for status in statuses.messages() if status.active)
+            return len(said) == 2 and min(said.values()) >= 3
+        wait_until(formed, 'bond')
+        statuses.close()
 
     def test_manager_is_killed_and_the_loader_ends(self):
         with publisher(scene('table'), rate=10), manager() as host, loader() as load:
