@@ -168,8 +168,8 @@ class SimulatedCamera(unittest.TestCase):
         return origin
 
     def test_renders_only_while_somebody_listens(self):
-        # Ten frames a second: those until the end of the connection is noticed are far fewer than those of two seconds.
-        with camera('lazy', '_scene:=table', '_seed:=1', '_rate:=10'):
+        rate = 10  # Hz
+        with camera('lazy', '_scene:=table', '_seed:=1', '_rate:=%d' % rate):
             wait_until(lambda: advertised('/lazy/depth/points'), 'advertisement')
             time.sleep(1)
             # Frame n has the noise of the seed 1 + n: this is the first one that is rendered.
@@ -185,13 +185,15 @@ class SimulatedCamera(unittest.TestCase):
             clouds.close()
             time.sleep(0.5)
             last = clouds.messages()[-1]
-            time.sleep(1.5)
+            time.sleep(4.5)
             clouds = Listener('lazy/depth/points', PointCloud2)
             again = clouds.wait()
             clouds.close()
-        # The sequence number counts what is published, to nobody too.
-        self.assertGreater(again.header.stamp - last.header.stamp, rospy.Duration(1.5))
-        self.assertLess(again.header.seq - last.header.seq, 15)
+        # The sequence number counts what is published, to nobody too. Some frames go by until the end of a connection is
+        # noticed: on a busy machine those of more than a second.
+        pause = (again.header.stamp - last.header.stamp).to_sec()
+        self.assertGreater(pause, 4.5)
+        self.assertLess(again.header.seq - last.header.seq, rate * pause / 2)
 
     def test_localizer_in_the_same_manager_finds_shells(self):
         shells = Listener('localizer/shells', CylindricalShellArray)
