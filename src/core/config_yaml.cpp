@@ -21,7 +21,7 @@ using Values = std::map<std::string, YAML::Node>;
 void flatten(const YAML::Node& map, const std::string& prefix, Values& values)
 {
   for (const auto& entry : map) {
-    const auto name = prefix + entry.first.as<std::string>();
+    const auto name = prefix + oneLine(entry.first.as<std::string>());  // an error that begins with it says it
     if (entry.second.IsMap() && prefix.empty()) {
       flatten(entry.second, name + "/", values);
     } else {

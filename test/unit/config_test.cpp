@@ -241,6 +241,11 @@ TEST(ConfigFromYaml, AnswersWithOneLine)
   }
 }
 
+TEST(ConfigFromYaml, NamesThatBeginWithTheirEndAreUnknown)
+{
+  EXPECT_NE(messageOf("\"\\0\": 1").find("no such parameter"), std::string::npos);
+}
+
 /// Texts that would need much memory or a deep stack.
 TEST(ConfigFromYaml, RefusesWhatIsTooLongOrTooDeep)
 {
