@@ -24,7 +24,7 @@ using Teams = testing::Types<StdTeam>;  // TBB is what ThreadSanitizer does not 
 #else
 using Teams = testing::Types<StdTeam, TbbTeam>;
 #endif
-TYPED_TEST_SUITE(ThreadTeams, Teams, );
+TYPED_TEST_SUITE(ThreadTeams, Teams);
 
 TYPED_TEST(ThreadTeams, EveryIndexComesExactlyOnce)
 {
