@@ -69,7 +69,7 @@ def run(target, arguments):
     for folder in (corpus / target, findings / target, logs):
         folder.mkdir(parents=True, exist_ok=True)
     command = [str(arguments.build / "bin" / f"fuzz_{target}"), *OPTIONS, f"-max_total_time={arguments.seconds}",
-               f"-max_len={LONGEST[target]}", f"-artifact_prefix={findings / target}/",
+               f"-seed={arguments.seed}", f"-max_len={LONGEST[target]}", f"-artifact_prefix={findings / target}/",
                f"-malloc_limit_mb={LARGEST_ALLOCATION.get(target, USUAL_ALLOCATION)}"]
     dictionary = CASES / f"{target}.dict"
     if dictionary.exists():
@@ -99,6 +99,7 @@ def run(target, arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=pathlib.Path, required=True, help="tree with the fuzzers")
+    parser.add_argument("--seed", type=int, default=0, help="of the random numbers; 0: another one each time")
     parser.add_argument("--seeds", type=pathlib.Path, required=True, help="folder with a folder of inputs per target")
     parser.add_argument("--seconds", type=int, default=60, help="per target")
     parser.add_argument("--jobs", type=int, default=2, help="fuzzers at a time")
