@@ -90,6 +90,18 @@ inline Points cylinderPoints(double radius, double arc, double length, std::size
   return points;
 }
 
+/// A cloud as it is in another frame.
+inline Cloud moved(const Cloud& cloud, const Eigen::Isometry3d& T)
+{
+  Cloud result = cloud;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f p = (T * cloud.point(i).cast<double>()).cast<float>();
+    result.set(i, p.x(), p.y(), p.z());
+  }
+  result.sensor_origin = (T * cloud.sensor_origin.cast<double>()).cast<float>();
+  return result;
+}
+
 inline Points transformed(Points points, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation)
 {
   for (Eigen::Vector3d& p : points) {

@@ -95,17 +95,6 @@ TEST(Properties, MovedViewsMoveTheirShellsAndHandles)
   EXPECT_GE(all_handles, 3U);
 }
 
-Cloud moved(const Cloud& cloud, const Pose& T)
-{
-  Cloud result = cloud;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f p = (T * cloud.point(i).cast<double>()).cast<float>();
-    result.set(i, p.x(), p.y(), p.z());
-  }
-  result.sensor_origin = (T * cloud.sensor_origin.cast<double>()).cast<float>();
-  return result;
-}
-
 // Coordinates of 1 to 2 m are rounded to single precision, by up to 6e-8 m each. With that points come into
 // neighborhoods or leave them: with 500 points within 26 mm, 3 / 26 mm of them per m of the radius, the rounding of
 // 2e-7 m concerns one neighborhood in a hundred. What is exactly coplanar, as pixels of the same disparity may be, is

@@ -36,18 +36,6 @@ Pose somePose()
   return Eigen::Translation3d(0.3, -0.2, 0.9) * Eigen::AngleAxisd(0.8, Eigen::Vector3d(1.0, 2.0, -0.5).normalized());
 }
 
-/// A cloud as it is in another frame.
-Cloud moved(const Cloud& cloud, const Pose& T)
-{
-  Cloud result = cloud;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f p = (T * cloud.point(i).cast<double>()).cast<float>();
-    result.set(i, p.x(), p.y(), p.z());
-  }
-  result.sensor_origin = (T * cloud.sensor_origin.cast<double>()).cast<float>();
-  return result;
-}
-
 /// A scene as several cameras see it, which are turned about its vertical by so many degrees; noise differs.
 struct SeenScene
 {
