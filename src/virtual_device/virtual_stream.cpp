@@ -198,7 +198,7 @@ OniStatus VirtualStream::getProperty(int id, void* data, int* size)
     case ONI_STREAM_PROPERTY_MAX_VALUE:  // frames of a recorder hold nothing above it
       return answerProperty(sensor_.sensorType == ONI_SENSOR_DEPTH ? kMaxDepth : kMaxColor, data, size);
     case ONI_STREAM_PROPERTY_MIN_VALUE:
-      return answerProperty(0, data, size);
+      return answerProperty<int>(0, data, size);
     case ONI_STREAM_PROPERTY_CROPPING:  // a recorder of a stream that does not answer plays no frames back
       return answerProperty(OniCropping{}, data, size);
     default:

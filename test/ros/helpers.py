@@ -62,7 +62,7 @@ class Process:
         self._start([executable(package, name), *arguments], environment)
 
     def _start(self, command, environment=None):
-        self._output = tempfile.TemporaryFile()
+        self._output = tempfile.TemporaryFile('a+b')  # the process writes at its end, wherever we read
         self._process = subprocess.Popen(command, stdout=self._output, stderr=subprocess.STDOUT, env=environment)
 
     def __enter__(self):

@@ -252,7 +252,7 @@ TEST(ConfigFromYaml, RefusesWhatIsTooLongOrTooDeep)
   EXPECT_NE(messageOf(std::string(1000001, '#')).find("longer than"), std::string::npos);
   EXPECT_EQ(messageOf(std::string(1000000, '#')), "");
   EXPECT_THROW(configFromYamlFile("/dev/zero", Config()), ParameterError);
-  for (const std::string& opening : {"[", "{", "[{", "- ", "? ", "a: {", "[&a ", "!t ["}) {
+  for (const char* opening : {"[", "{", "[{", "- ", "? ", "a: {", "[&a ", "!t ["}) {
     std::string text;
     while (text.size() < 100000) {
       text += opening;
