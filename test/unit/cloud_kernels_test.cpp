@@ -30,6 +30,12 @@ bool sameBits(const T& a, const T& b)
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
+/// With count 0 either may be null, which memcmp must not be given.
+bool sameBits(const float* a, const float* b, std::size_t count)
+{
+  return count == 0 || std::memcmp(a, b, count * sizeof(float)) == 0;
+}
+
 /// A third of the numbers are NaN.
 std::vector<float> withGaps(std::size_t count, double low, double high, Random& random)
 {
@@ -142,12 +148,9 @@ TEST(BlankUnmeasured, AgreesWithTheCloud)
         expected.set(i, blanked[0][i], blanked[1][i], blanked[2][i]);
       }
       blankUnmeasured(blanked[0].data(), blanked[1].data(), blanked[2].data(), count);
-      const auto same = [count](const float* a, const float* b) {  // memcmp must not be given null
-        return count == 0 || std::memcmp(a, b, count * sizeof(float)) == 0;
-      };
-      EXPECT_TRUE(same(blanked[0].data(), expected.x.data())) << count;
-      EXPECT_TRUE(same(blanked[1].data(), expected.y.data())) << count;
-      EXPECT_TRUE(same(blanked[2].data(), expected.z.data())) << count;
+      EXPECT_TRUE(sameBits(blanked[0].data(), expected.x.data(), count)) << count;
+      EXPECT_TRUE(sameBits(blanked[1].data(), expected.y.data(), count)) << count;
+      EXPECT_TRUE(sameBits(blanked[2].data(), expected.z.data(), count)) << count;
     }
   });
 }
@@ -224,8 +227,8 @@ TEST(GatherMeasured, LeavesGapsOut)
       float* const arrays[] = {to[0].data(), to[1].data(), to[2].data()};
       const std::size_t found = gatherMeasured(from, index.data(), count, arrays);
       ASSERT_EQ(found, expected_x.size());
-      EXPECT_EQ(std::memcmp(to[0].data(), expected_x.data(), found * sizeof(float)), 0);
-      EXPECT_EQ(std::memcmp(to[1].data(), expected_y.data(), found * sizeof(float)), 0);
+      EXPECT_TRUE(sameBits(to[0].data(), expected_x.data(), found));
+      EXPECT_TRUE(sameBits(to[1].data(), expected_y.data(), found));
     }
   });
 }
