@@ -60,7 +60,7 @@ OniStatus VirtualDevice::setProperty(int id, const void* data, int size)
 {
   if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION)
     return ONI_STATUS_NOT_IMPLEMENTED;
-  OniImageRegistrationMode mode;
+  OniImageRegistrationMode mode = ONI_IMAGE_REGISTRATION_OFF;
   const OniStatus status = receiveProperty(data, size, mode);
   if (status == ONI_STATUS_OK)
     registration_ = mode;

@@ -21,7 +21,7 @@ class VirtualDevice : public oni::driver::DeviceBase
 public:
   explicit VirtualDevice(std::shared_ptr<const PluggedCamera> camera);
 
-  OniStatus getSensorInfoList(OniSensorInfo** sensors, int* count) override;
+  OniStatus getSensorInfoList(OniSensorInfo** infos, int* count) override;
   oni::driver::StreamBase* createStream(OniSensorType sensor) override;
   void destroyStream(oni::driver::StreamBase* stream) override;
   OniStatus setProperty(int id, const void* data, int size) override;
