@@ -5,6 +5,7 @@
 #include "core/window_search.h"
 
 #include <pcl/kdtree/kdtree_flann.h>
+#include <pcl/memory.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
@@ -25,7 +26,8 @@ class TreeSearch : public NeighborhoodSearch
 public:
   explicit TreeSearch(const Cloud& cloud) : cloud_(cloud)
   {
-    const pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>);
+    // Not by new: the class has another operator new in the libraries of PCL, which are no C++17.
+    const auto points = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       if (cloud.measured(i)) {
         points->push_back({cloud.x[i], cloud.y[i], cloud.z[i]});
