@@ -24,6 +24,9 @@ ABNORMAL_ENDS = ('boost', 'mutex', 'terminate', 'Assertion', 'rror:')
 # What every time-out is multiplied by, as under a sanitizer.
 TIME_FACTOR = int(os.environ.get('GRASP_AFFORDANCES_TIME_FACTOR', 1))
 
+# AddressSanitizer keeps what was freed for a while: there the size of a process says nothing of what it uses.
+FREED_MEMORY_IS_KEPT = 'ASAN_OPTIONS' in os.environ
+
 _scenes = None
 
 
@@ -152,9 +155,10 @@ def processor_time(process):
     return (int(user) + int(system)) / os.sysconf('SC_CLK_TCK')
 
 
-def publisher(file, rate=0, frame='camera_depth_optical_frame'):
-    """pcd_publisher on the topic points; rate in Hz, 0: once to each subscriber."""
-    return Process('grasp_affordances', 'pcd_publisher', '_file:=' + file, '_rate:=%g' % rate, '_frame_id:=' + frame)
+def publisher(file, rate=0, frame='camera_depth_optical_frame', topic='points'):
+    """pcd_publisher; rate in Hz, 0: once to each subscriber."""
+    return Process('grasp_affordances', 'pcd_publisher', '_file:=' + file, '_rate:=%g' % rate, '_frame_id:=' + frame,
+                   'points:=' + topic)
 
 
 class Listener:

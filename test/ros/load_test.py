@@ -16,7 +16,8 @@ from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import Header
 
 from grasp_affordances.msg import LocalizationStatistics
-from helpers import ABNORMAL_ENDS, Listener, Nodelets, Process, Program, manager, published, usage, wait_until
+from helpers import (ABNORMAL_ENDS, FREED_MEMORY_IS_KEPT, Listener, Nodelets, Process, Program, manager, published, usage,
+                     wait_until)
 from raw_peers import RawSubscriber
 
 OUTPUTS = ('shells', 'handles', 'hand_poses', 'markers', 'statistics', 'selected', 'selected_pose',
@@ -134,7 +135,8 @@ class Load(unittest.TestCase):
         self.check_newest_only(arrivals, period)
         rospy.loginfo('%d answers, %d clouds received, memory %.1f to %.1f MB, %s markers read', len(arrivals),
                       arrivals[-1][0].clouds_received - arrivals[0][0].clouds_received, min(memory), max(memory), read)
-        self.assertLess(max(memory) - min(memory), megabytes)
+        if not FREED_MEMORY_IS_KEPT:
+            self.assertLess(max(memory) - min(memory), megabytes)
         self.assertGreater(min(read), 0.5 * len(arrivals))
 
     def check_newest_only(self, arrivals, period):

@@ -15,7 +15,8 @@ from bond.msg import Status
 from sensor_msgs.msg import Image, PointCloud2
 
 from grasp_affordances.msg import LocalizationStatistics
-from helpers import ABNORMAL_ENDS, Listener, Nodelets, Process, manager, publisher, scene, usage, wait_until
+from helpers import (ABNORMAL_ENDS, FREED_MEMORY_IS_KEPT, Listener, Nodelets, Process, manager, publisher, scene, usage,
+                     wait_until)
 from raw_peers import RawSubscriber
 from virtual_devices import VirtualDevices, device
 
@@ -78,7 +79,8 @@ class Reload(unittest.TestCase):
                    'end of threads and connections: %s, now %s' % (before, usage(host)))
         rospy.loginfo('%s, %d cycles: %s, then %s; the longest unloading took %.3f s', kind, cycles, before,
                       usage(host), longest)
-        self.assertLess(usage(host).memory - before.memory, memory)
+        if not FREED_MEMORY_IS_KEPT:
+            self.assertLess(usage(host).memory - before.memory, memory)
 
     def test_localizer(self):
         with publisher(scene('table'), rate=30), manager(one_heap()) as host:

@@ -87,8 +87,9 @@ class Tracking(unittest.TestCase):
         file = os.path.join(cls.folder, '%s_%d.pcd' % (scene, noise))
         subprocess.run([executable('grasp_affordances', 'simulate'), '--scene', scene, '--noise-seed', str(1000 * noise),
                         '--out', file], check=True, stdout=subprocess.DEVNULL, timeout=60)
-        with publisher(file, rate=5, frame=CAMERA):
-            listener = Listener('points', PointCloud2)
+        # On a topic of its own: rospy may yet connect a listener that was just closed to a publisher that is new.
+        with publisher(file, rate=5, frame=CAMERA, topic='simulated'):
+            listener = Listener('simulated', PointCloud2)
             cloud = listener.wait()
             listener.close()
         return cloud
