@@ -23,6 +23,7 @@ public:
                        oni::driver::DeviceStateChangedCallback state_changed, void* cookie) override
   {
     DriverBase::initialize(connected, disconnected, state_changed, cookie);
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes the environment
     const char* list_file = std::getenv("GRASP_AFFORDANCES_VIRTUAL_DEVICES");
     try {
       bus_ = std::make_shared<VirtualBus>(

@@ -9,6 +9,7 @@ namespace grasp_affordances::fuzz
 /// s of processor time that one input may take: 1, or as many as the environment says of tests under a sanitizer.
 inline double longestSeconds()
 {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes the environment
   static const char* const factor = std::getenv("GRASP_AFFORDANCES_TIME_FACTOR");
   return factor == nullptr ? 1.0 : std::atof(factor);
 }

@@ -29,6 +29,7 @@ namespace grasp_affordances::test
 /// For how many seeds each property is tested: GRASP_AFFORDANCES_PROPERTY_SEEDS, or 1.
 inline std::uint64_t propertySeeds()
 {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes the environment
   const char* text = std::getenv("GRASP_AFFORDANCES_PROPERTY_SEEDS");
   const std::uint64_t seeds = text == nullptr ? 1 : std::strtoull(text, nullptr, 10);
   if (seeds == 0) {

@@ -22,6 +22,7 @@ inline bool isFolder(const std::string& path)
 /// environment promises a folder that does not exist.
 inline std::string recordingsFolder()
 {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes the environment
   if (const char* folder = std::getenv("GRASP_AFFORDANCES_DATA")) {
     if (!isFolder(folder)) {
       throw std::runtime_error(std::string("GRASP_AFFORDANCES_DATA names no folder: ") + folder);

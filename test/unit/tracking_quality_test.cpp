@@ -239,6 +239,7 @@ Quality watch(const NamedScene& scene, std::uint64_t seed, std::size_t frames, c
 
 std::size_t numberFrom(const char* variable, std::size_t otherwise)
 {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes the environment
   const char* text = std::getenv(variable);
   return text == nullptr ? otherwise : std::strtoul(text, nullptr, 10);
 }
