@@ -4,6 +4,7 @@ sources with the same compiler options are read together, as far as their names 
 
 import argparse
 import concurrent.futures
+import itertools
 import json
 import os
 import pathlib
@@ -34,20 +35,21 @@ def read_groups(build, wanted):
         options.remove("-c")
         options.remove(file)
         groups.setdefault((entry["directory"], tuple(options)), []).append(file)
+    if wanted - seen or not seen:
+        sys.exit(f"not in {build}/compile_commands.json: {', '.join(sorted(wanted - seen)) or 'any source'}")
     return groups
 
 
 class Tidy:
     def __init__(self, folder):
         self._folder = folder
-        self._count = 0
+        self._numbers = itertools.count()  # which threads may share
 
     def look(self, directory, options, sources):
         """What clang-tidy says of the sources; None: nothing."""
         file = sources[0]
         if len(sources) > 1:
-            self._count += 1
-            file = str(self._folder / f"together_{self._count}.cpp")
+            file = str(self._folder / f"together_{next(self._numbers)}.cpp")
             pathlib.Path(file).write_text("".join(f'#include "{source}"\n' for source in sources))
             syntax = ["clang++-14", *options, "-w", "-fsyntax-only", file]
             if subprocess.run(syntax, cwd=directory, capture_output=True, check=False).returncode:
@@ -71,7 +73,6 @@ def main():
     build = arguments.build.resolve()
     folder = build / "tidy"
     folder.mkdir(exist_ok=True)
-    (folder / ".clang-tidy").write_text((pathlib.Path(__file__).parent.parent / ".clang-tidy").read_text())
     tidy = Tidy(folder)
     jobs = []
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
