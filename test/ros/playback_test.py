@@ -17,7 +17,7 @@ import rostest
 from visualization_msgs.msg import Marker, MarkerArray
 
 from grasp_affordances.msg import CylindricalShellArray, HandleArray, LocalizationStatistics
-from helpers import Launch, Listener, recordings, serialized, wait_until
+from helpers import TIME_FACTOR, Launch, Listener, recordings, serialized, wait_until
 
 LOOPS = 5
 
@@ -125,7 +125,7 @@ class Playback(unittest.TestCase):
         listener = Listener('localizer/shells', CylindricalShellArray)
         with Launch('simulated_camera.launch', 'scene:=table', 'motion:=orbit', 'frames_ahead:=4', 'rate:=5', config):
             listener.wait()
-            with Launch('record.launch', 'bag:=' + bag, 'duration:=1.5') as recorder:
+            with Launch('record.launch', 'bag:=' + bag, 'duration:=%g' % (1.5 * TIME_FACTOR)) as recorder:
                 recorder.wait(30)
         listener.close()
         return self.by_stamp(listener.messages())

@@ -127,8 +127,8 @@ class Tracking(unittest.TestCase):
         localizer = os.path.join(self.folder, 'localizer.yaml')
         with open(localizer, 'w') as file:
             file.write('{fixed_frame: world, transform_timeout: 5}')
-        transforms = tf2_ros.Buffer()
-        transform_listener = tf2_ros.TransformListener(transforms)
+        transforms = tf2_ros.Buffer(rospy.Duration(300))
+        self.addCleanup(tf2_ros.TransformListener(transforms).unregister)
         with Launch('simulated_camera.launch', 'motion:=orbit', 'camera_config:=' + camera, 'config:=' + localizer):
             listener = Listener('localizer/handles', HandleArray)
             wait_until(lambda: len(listener.messages()) >= 25, '25 clouds', timeout=60)
@@ -143,7 +143,6 @@ class Tracking(unittest.TestCase):
                     centroid = vector(handle.centroid)
                     tracks.setdefault(handle.id, []).append(applied(T_world_camera, centroid))
                     in_camera.setdefault(handle.id, []).append(centroid)
-        transform_listener.unregister()
         # Of what was found in the first cloud at least the mug's handle, the bottle's neck and the bar stay to the end.
         staying = [id for id in ids(messages[0]) if len(tracks[id]) == len(messages)]
         self.assertGreaterEqual(len(staying), 3, 'of %s' % ids(messages[0]))

@@ -1,3 +1,4 @@
+#include "core/full_quadric_fit.h"
 #include "core/instruction_sets.h"
 #include "core/moment_sums.h"
 #include "core/quadric_curvatures.h"
@@ -249,11 +250,12 @@ TEST_P(Kernel, FitsEachQuadricInALaneOfItsOwn)
   }
 }
 
-TEST_P(Kernel, TellsPlanesFromUniqueQuadrics)
+/// As someFits, but no points at all in lane 2, and a plane in lane 5.
+QuadricFits fitsOfWhichTwoAreNotUnique()
 {
   QuadricFits fits = someFits(31);
   for (int m = 0; m < kMomentCount; ++m) {
-    fits.moments[m][2] = 0.0;  // no points at all
+    fits.moments[m][2] = 0.0;
   }
   for (int i = 0; i <= 4; ++i) {  // z = 0
     for (int j = 0; i + j <= 4; ++j) {
@@ -262,9 +264,46 @@ TEST_P(Kernel, TellsPlanesFromUniqueQuadrics)
       }
     }
   }
+  return fits;
+}
+
+TEST_P(Kernel, TellsPlanesFromUniqueQuadrics)
+{
+  QuadricFits fits = fitsOfWhichTwoAreNotUnique();
   fitQuadrics(fits, kFitsAtOnce);
   for (std::size_t lane = 0; lane < kFitsAtOnce; ++lane) {
     EXPECT_EQ(fits.status[lane], lane == 2 || lane == 5 ? FitStatus::not_unique : FitStatus::unique) << lane;
+  }
+}
+
+TEST(FullSolver, TellsPlanesFromUniqueQuadrics)
+{
+  QuadricFits fits = fitsOfWhichTwoAreNotUnique();
+  for (std::size_t lane = 0; lane < kFitsAtOnce; ++lane) {
+    fits.status[lane] = FitStatus::not_converged;
+    fitQuadricFully(fits, lane);
+    EXPECT_EQ(fits.status[lane], lane == 2 || lane == 5 ? FitStatus::not_unique : FitStatus::unique) << lane;
+  }
+}
+
+TEST(FullSolver, FitsTheSameQuadricsAsTheKernels)
+{
+  for (std::size_t seed = 1; seed <= 20; ++seed) {
+    QuadricFits fast = someFits(seed), full = fast;
+    fitQuadrics(fast, kFitsAtOnce);
+    for (std::size_t lane = 0; lane < kFitsAtOnce; ++lane) {
+      fitQuadricFully(full, lane);
+      ASSERT_EQ(full.status[lane], FitStatus::unique);
+      EXPECT_NEAR(full.eigenvalue[lane], fast.eigenvalue[lane], 1e-9 * fast.eigenvalue[lane]);
+      // Both are normalized by the gradient; which way it points is arbitrary.
+      const double sign = full.coefficients[2][lane] * fast.coefficients[2][lane] < 0.0 ? -1.0 : 1.0;
+      double difference = 0.0, norm = 0.0;
+      for (std::size_t a = 0; a < full.coefficients.size(); ++a) {
+        difference = std::hypot(difference, full.coefficients[a][lane] - sign * fast.coefficients[a][lane]);
+        norm = std::hypot(norm, fast.coefficients[a][lane]);
+      }
+      EXPECT_LT(difference, 1e-9 * norm) << "seed " << seed << " lane " << lane;
+    }
   }
 }
 

@@ -1,6 +1,5 @@
 #include "grasp_affordances/quadric.h"
 
-#include "core/smallest_eigenvector.h"
 #include "io/pcd.h"
 #include "support/points.h"
 #include "support/recordings.h"
@@ -344,44 +343,6 @@ TEST(GeneralizedEigenproblem, AgreesWithTheGeneralSolverOnRecordedClouds)
     const Cloud cloud = readPcdCloud(folder + "/mosd/" + name + ".pcd");
     EXPECT_GT(compareWithGeneralSolver(cloud, 125, 9), 100) << name;
   }
-}
-
-TEST(SmallestEigenpair, AgreesWithTheFullDecomposition)
-{
-  using Matrix = Eigen::Matrix<double, 9, 9>;
-  Random random(17);
-  int iterated = 0;
-  constexpr int kMatrices = 500;
-  for (int i = 0; i < kMatrices; ++i) {
-    Eigen::Matrix<double, 9, 9> factor;
-    for (Eigen::Index j = 0; j < factor.size(); ++j) {
-      factor(j) = random.normal();
-    }
-    factor.row(0) *= std::pow(10.0, -random.uniform(0.0, 6.0));
-    const Matrix matrix = factor.transpose() * factor;
-    const Eigen::SelfAdjointEigenSolver<Matrix> full(matrix);
-    const auto pair = smallestEigenpair(matrix, 0.0);
-    ASSERT_TRUE(pair);
-    EXPECT_NEAR(pair->value, full.eigenvalues()[0], 1e-13 * matrix.trace());
-    const double gap = (full.eigenvalues()[1] - full.eigenvalues()[0]) / matrix.trace();
-    const double cosine = std::abs(pair->vector.dot(full.eigenvectors().col(0)));
-    EXPECT_LT(1.0 - cosine, std::pow(1e-13 / gap, 2) + 1e-14);
-    iterated += iterateToSmallest(matrix, 0.0) ? 1 : 0;
-  }
-  EXPECT_GT(iterated, kMatrices * 9 / 10) << "the full decomposition is for the exceptions";
-}
-
-TEST(SmallestEigenpair, RefusesAnEigenvalueThatIsNotAlone)
-{
-  using Matrix = Eigen::Matrix<double, 9, 9>;
-  Matrix matrix = Matrix::Identity();
-  EXPECT_FALSE(smallestEigenpair(matrix, 1e-14));
-  matrix(3, 3) = 0.5;
-  const auto pair = smallestEigenpair(matrix, 1e-14);
-  ASSERT_TRUE(pair);
-  EXPECT_NEAR(std::abs(pair->vector[3]), 1.0, 1e-12);
-  EXPECT_EQ(eigenvaluesBelow(matrix, 0.75), 1);
-  EXPECT_EQ(eigenvaluesBelow(matrix, 1.5), 9);
 }
 
 }  // namespace
