@@ -225,7 +225,7 @@ void HiddenSurfaces::continueAlong(bool rows, std::size_t tile, const RangeImage
         block.left[line], block.right[line], max_width, std::abs(rows ? camera.fx : camera.fy),
         [&](const Bridge& bridge) {
           for (int i = bridge.left + 1; i < bridge.right; ++i) {
-            const std::size_t along = static_cast<std::size_t>(i);
+            const auto along = static_cast<std::size_t>(i);
             const std::size_t u = rows ? along : across, v = rows ? across : along;
             const std::size_t pixel = v * width + u;
             const double z = 1.0 / bridge.line(i);

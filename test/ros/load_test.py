@@ -16,8 +16,8 @@ from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import Header
 
 from grasp_affordances.msg import LocalizationStatistics
-from helpers import (ABNORMAL_ENDS, FREED_MEMORY_IS_KEPT, Listener, Nodelets, Process, Program, manager, published, usage,
-                     wait_until)
+from helpers import (ABNORMAL_ENDS, FREED_MEMORY_IS_KEPT, TIME_FACTOR, Listener, Nodelets, Process, Program, manager,
+                     published, usage, wait_until)
 from raw_peers import RawSubscriber
 
 OUTPUTS = ('shells', 'handles', 'hand_poses', 'markers', 'statistics', 'selected', 'selected_pose',
@@ -25,7 +25,7 @@ OUTPUTS = ('shells', 'handles', 'hand_poses', 'markers', 'statistics', 'selected
 READERS = 9
 WARM_UP = 0.3    # share of the time: until everything that is kept has its size
 FEWEST = 8       # answers to look at, however long they take
-SLACK = 0.5      # s, of a machine with more to do than it has cores
+SLACK = 0.5 * TIME_FACTOR  # s, of a machine with more to do than it has cores
 SMALL = 4096     # bytes, of a receive buffer
 
 

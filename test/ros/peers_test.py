@@ -17,11 +17,11 @@ from sensor_msgs.msg import PointCloud2, PointField
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
 from grasp_affordances.srv import Localize, LocalizeNext, LocalizeNextRequest, LocalizeRequest
-from helpers import (ABNORMAL_ENDS, Listener, Nodelets, Process, cloud, coordinates, manager, others_subscribed_to,
-                     published, publisher, scene, serialized, wait_until)
+from helpers import (ABNORMAL_ENDS, TIME_FACTOR, Listener, Nodelets, Process, cloud, coordinates, manager,
+                     others_subscribed_to, published, publisher, scene, serialized, wait_until)
 from raw_peers import RawCaller, connections_to
 
-SLACK = 3  # s, of a busy machine
+SLACK = 3 * TIME_FACTOR  # s, of a busy machine
 HUGE = 2 ** 32 - 1
 
 
@@ -196,6 +196,8 @@ class Peers(unittest.TestCase):
         with Process('grasp_affordances', 'localizer_node') as node:
             outputs = {name: Listener('localizer/' + name, kind) for name, kind in
                        (('statistics', LocalizationStatistics), ('shells', CylindricalShellArray))}
+            for listener in outputs.values():
+                self.addCleanup(listener.close)
             clouds = rospy.Publisher('points', PointCloud2, queue_size=100)
             wait_until(lambda: clouds.get_num_connections() == 1, 'connection')
             good = cloud(width=64, height=48)
@@ -219,10 +221,9 @@ class Peers(unittest.TestCase):
                 self.assertLessEqual(statistics.clouds_received, published_clouds, name)
                 self.assertEqual(statistics.clouds_received, statistics.clouds_processed + statistics.clouds_dropped +
                                  statistics.clouds_rejected, name)
-            self.assertGreaterEqual(statistics.clouds_rejected, len(unusable(good)))
+            # Each kind once, but where the node is so slow that newer ones supersede it.
+            self.assertGreaterEqual(statistics.clouds_rejected, len(unusable(good)) // TIME_FACTOR)
             self.assertTrue(all(finite(message) for message in outputs['shells'].messages()))
-            for listener in outputs.values():
-                listener.close()
             self.assertEqual(node.interrupt(), 0, node.output())
             for sign in ABNORMAL_ENDS[:-1]:  # the rejections are errors
                 self.assertNotIn(sign, node.output())

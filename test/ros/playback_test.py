@@ -123,7 +123,8 @@ class Playback(unittest.TestCase):
     def record(self, bag, config):
         """Records a camera that circles about a table, and returns what the localizer made of its frames."""
         listener = Listener('localizer/shells', CylindricalShellArray)
-        with Launch('simulated_camera.launch', 'scene:=table', 'motion:=orbit', 'frames_ahead:=4', 'rate:=5', config):
+        with Launch('simulated_camera.launch', 'scene:=table', 'motion:=orbit', 'frames_ahead:=4',
+                    'rate:=%g' % (5 / TIME_FACTOR), config):
             listener.wait()
             with Launch('record.launch', 'bag:=' + bag, 'duration:=%g' % (1.5 * TIME_FACTOR)) as recorder:
                 recorder.wait(30)
