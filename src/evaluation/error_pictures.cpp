@@ -109,7 +109,7 @@ std::pair<Eigen::Vector3d, double> surroundingSphere(const LabelledCloud& labell
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < labelled.labels.size(); ++i) {
     if (labelled.labels[i] == label && labelled.cloud.measured(i)) {
-      points.push_back(labelled.cloud.point(i).cast<double>());
+      points.emplace_back(labelled.cloud.point(i).cast<double>());
       sum += points.back();
     }
   }

@@ -68,7 +68,7 @@ LabelledCloud united(const LabelledCloud& labelled, std::size_t views)
                           const std::vector<std::uint32_t>& labels) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       if (cloud.measured(i)) {
-        points.push_back((T_first_this * cloud.point(i).cast<double>()).cast<float>());
+        points.emplace_back((T_first_this * cloud.point(i).cast<double>()).cast<float>());
         result.labels.push_back(labels[i]);
       }
     }

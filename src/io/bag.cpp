@@ -48,7 +48,7 @@ private:
   {
     const std::size_t at = position_;
     skip(sizeof(std::uint32_t));
-    std::uint32_t value;
+    std::uint32_t value = 0;
     std::memcpy(&value, bytes_.data() + at, sizeof(value));
     return value;
   }

@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -52,7 +53,7 @@ struct Region
 
   std::uint32_t number(std::uint64_t at, const char* of) const
   {
-    std::uint32_t value;
+    std::uint32_t value = 0;
     std::memcpy(&value, read(at, sizeof(value), of).data(), sizeof(value));
     return value;
   }
@@ -316,7 +317,7 @@ void checkBag(const std::string& path)
   errno = 0;
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   if (!stream) {
-    throw CloudError(std::string("cannot be read as a bag: ") + std::strerror(errno));
+    throw CloudError(std::string("cannot be read as a bag: ") + std::generic_category().message(errno));
   }
   const Region file{
       static_cast<std::uint64_t>(stream.tellg()), [&stream](std::uint64_t at, void* to, std::size_t size) {

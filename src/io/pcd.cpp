@@ -17,6 +17,7 @@
 #include <locale>
 #include <map>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 namespace grasp_affordances
@@ -419,7 +420,7 @@ pcl::PCLPointCloud2 readPcd(const std::string& path, SensorPose* viewpoint)
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    throw CloudError(std::strerror(errno));
+    throw CloudError(std::generic_category().message(errno));
   }
   const std::uint64_t file_size = std::filesystem::file_size(path);
   if (file_size == 0) {

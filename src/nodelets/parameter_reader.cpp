@@ -40,6 +40,21 @@ std::string valueText(const XmlRpcValue& value)
   return text.str();
 }
 
+/// Whether the value is a list whose entries `append` took.
+template <typename Append>
+bool readList(XmlRpcValue value, const Append& append)
+{
+  if (value.getType() != XmlRpcValue::TypeArray) {
+    return false;
+  }
+  for (int i = 0; i < value.size(); ++i) {
+    if (!append(value[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 ParameterReader::ParameterReader(const XmlRpcValue& parameters)
@@ -83,6 +98,47 @@ void ParameterReader::passOver(const std::string& name)
 {
   const char after_slash = '/' + 1;  // in the order of the map
   parameters_.erase(parameters_.lower_bound(name + '/'), parameters_.lower_bound(name + after_slash));
+}
+
+void ParameterReader::operator()(const std::string& name, std::vector<std::string>& field, const std::string& allowed)
+{
+  const XmlRpcValue value = take(name);
+  if (!value.valid()) {
+    return;
+  }
+  field.clear();
+  const bool fits = readList(value, [&](const XmlRpcValue& entry) {
+    const bool text = entry.getType() == XmlRpcValue::TypeString;
+    if (text) {
+      field.push_back(static_cast<const std::string&>(entry));
+    }
+    return text;
+  });
+  if (!fits) {
+    throw refusal(name, value, allowed);
+  }
+}
+
+void ParameterReader::operator()(const std::string& name, std::vector<double>& field, const std::string& allowed)
+{
+  const XmlRpcValue value = take(name);
+  if (!value.valid()) {
+    return;
+  }
+  field.clear();
+  const bool fits = readList(value, [&](const XmlRpcValue& entry) {
+    if (entry.getType() == XmlRpcValue::TypeInt) {
+      field.push_back(static_cast<const int&>(entry));
+    } else if (entry.getType() == XmlRpcValue::TypeDouble) {
+      field.push_back(static_cast<const double&>(entry));
+    } else {
+      return false;
+    }
+    return true;
+  });
+  if (!fits) {
+    throw refusal(name, value, allowed);
+  }
 }
 
 void ParameterReader::refuseRemaining() const

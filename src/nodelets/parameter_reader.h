@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace grasp_affordances
 {
@@ -57,6 +58,10 @@ public:
 
   /// `allowed` says what the string should be.
   void operator()(const std::string& name, std::string& field, const std::string& allowed);
+
+  /// Lists; `allowed` says what they should be.
+  void operator()(const std::string& name, std::vector<std::string>& field, const std::string& allowed);
+  void operator()(const std::string& name, std::vector<double>& field, const std::string& allowed);
 
   template <typename Enum>
   std::enable_if_t<std::is_enum<Enum>::value> operator()(const std::string& name, Enum& field,

@@ -22,7 +22,7 @@ constexpr double kHiddenDepth = 0.01;  // m behind a point at which a line count
 
 }  // namespace
 
-Canvas::Canvas(const Cloud& cloud, const std::vector<Color>& colors, const PictureCamera& camera) : camera_(camera)
+Canvas::Canvas(const Cloud& cloud, const std::vector<Color>& colors, PictureCamera camera) : camera_(std::move(camera))
 {
   const int longer = static_cast<int>(std::max(camera_.width, camera_.height));
   scale_ = std::max(1, (kLongSide + longer / 2) / longer);
@@ -154,8 +154,8 @@ bool Canvas::hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to) cons
                   pixel->y() < camera_.height - 0.5)) {
     return false;
   }
-  const auto column = static_cast<std::size_t>(pixel->x() + 0.5);
-  const auto row = static_cast<std::size_t>(pixel->y() + 0.5);
+  const auto column = static_cast<std::size_t>(std::lround(pixel->x()));
+  const auto row = static_cast<std::size_t>(std::lround(pixel->y()));
   return depth_[row * camera_.width + column] < middle.z() - kHiddenDepth;
 }
 

@@ -21,7 +21,7 @@ using Polygon = std::vector<Eigen::Vector2d>;  ///< in the picture: pixels
 class Canvas
 {
 public:
-  Canvas(const Cloud& cloud, const std::vector<Color>& colors, const PictureCamera& camera);
+  Canvas(const Cloud& cloud, const std::vector<Color>& colors, PictureCamera camera);
 
   int width() const;   ///< pixels, a multiple of the camera's
   int height() const;  ///< pixels

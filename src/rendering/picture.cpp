@@ -10,9 +10,9 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace grasp_affordances
@@ -229,10 +229,10 @@ void Picture::drawArrow(const Eigen::Vector3d& from, const Eigen::Vector3d& to, 
   cairo_fill(context);
 }
 
-void Picture::drawLabel(const std::string& text, const Polyline& subject, double radius, const Color& color)
+void Picture::drawLabel(const std::string& text, const Polyline& line, double radius, const Color& color)
 {
   Polygon pixels;
-  for (const Polyline& ring : tubeRings(subject, radius)) {
+  for (const Polyline& ring : tubeRings(line, radius)) {
     if (!canvas_->project(ring, pixels)) {
       return;
     }
@@ -276,7 +276,8 @@ void Picture::save(const std::string& path) const
                        cairo_surface_write_to_png_stream(canvas_->surface(), writeTo, &file) == CAIRO_STATUS_SUCCESS &&
                        file.flush();
   if (!written) {
-    throw std::runtime_error("cannot write the picture " + path + ": " + std::strerror(errno != 0 ? errno : EIO));
+    throw std::runtime_error("cannot write the picture " + path + ": " +
+                             std::generic_category().message(errno != 0 ? errno : EIO));
   }
 }
 

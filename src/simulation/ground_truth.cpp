@@ -37,8 +37,9 @@ std::vector<std::uint32_t> labelsOfPixels(const View& view, const Frame& frame, 
     const auto part = static_cast<std::size_t>(frame.parts[pixel]);
     if (!labels.any(part))
       continue;
-    const Eigen::Vector3d direction = directionThrough(model.intrinsics, static_cast<double>(pixel % model.width),
-                                                       static_cast<double>(pixel / model.width));
+    const std::size_t u = pixel % model.width, v = pixel / model.width;
+    const Eigen::Vector3d direction =
+        directionThrough(model.intrinsics, static_cast<double>(u), static_cast<double>(v));
     result[pixel] = labels.label(part, T_shape_camera[part] * (frame.surface_depth[pixel] * direction));
   }
   return result;
