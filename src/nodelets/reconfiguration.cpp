@@ -15,6 +15,7 @@
 #include <functional>
 #include <sstream>
 #include <type_traits>
+#include <utility>
 
 namespace grasp_affordances
 {
@@ -75,7 +76,7 @@ public:
     if (!ConfigTools::getParameter(message_, flatName(name), number)) {
       return;
     }
-    const double min = static_cast<double>(range.min), max = static_cast<double>(range.max);
+    const auto min = static_cast<double>(range.min), max = static_cast<double>(range.max);
     if (!(number >= min && number <= max && number == std::floor(number))) {
       std::ostringstream text;
       text << name << ": " << number << " is not a whole number in [" << range.min << ", " << range.max << "]";
@@ -151,7 +152,7 @@ public:
   /// `change` takes values over, or replaces them and returns false. First it is told of those at the start.
   void start(std::function<bool(Message& values, bool starting)> change)
   {
-    server_.setCallback([change](LocalizerConfig& config, std::uint32_t level) {
+    server_.setCallback([change = std::move(change)](LocalizerConfig& config, std::uint32_t level) {
       Message values;
       config.__toMessage__(values);
       if (!change(values, level == kStarting)) {

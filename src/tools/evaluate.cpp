@@ -19,12 +19,8 @@ namespace grasp_affordances
 namespace
 {
 
-enum ExitStatus
-{
-  kDone = 0,
-  kFailed = 1,
-  kBadUsage = 2
-};
+// Exit statuses.
+constexpr int kDone = 0, kFailed = 1, kBadUsage = 2;
 
 void appendRecordings(const EvaluateOptions& options, std::vector<EvaluationFrame>& frames)
 {

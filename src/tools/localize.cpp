@@ -22,12 +22,8 @@ namespace grasp_affordances
 namespace
 {
 
-enum ExitStatus
-{
-  kDone = 0,
-  kBadInput = 1,
-  kBadUsage = 2
-};
+// Exit statuses.
+constexpr int kDone = 0, kBadInput = 1, kBadUsage = 2;
 
 /// FILE.png for the first cloud, FILE-2.png for the second.
 std::string picturePath(const std::string& first, std::size_t number)
@@ -49,7 +45,7 @@ public:
   {
   }
 
-  ExitStatus run()
+  int run()
   {
     if (!options_.views.empty()) {
       attempt(options_.views.front().file, [this] { processViews(); });
@@ -205,7 +201,7 @@ private:
   Cloud cloud_;
   std::size_t input_ = 0;      // of the options' inputs, from 1
   std::size_t localized_ = 0;  // clouds
-  ExitStatus status_ = kDone;
+  int status_ = kDone;
 };
 
 int localizeMain(int argc, char** argv)
