@@ -88,9 +88,7 @@ void listScenes()
     std::cout << scene.name << ": " << scene.description << '\n';
 }
 
-}  // namespace
-
-int main(int argc, char** argv)
+int simulateMain(int argc, char** argv)
 {
   std::string scene, out, depth, objects;
   std::uint64_t seed = 1, noise_seed = 0;
@@ -162,4 +160,16 @@ int main(int argc, char** argv)
             << truth.affordances.size() << " affordances\n"
             << ga::affordanceTable(truth);
   return good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  try {
+    return simulateMain(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "simulate: " << error.what() << '\n';
+    return 1;
+  }
 }
