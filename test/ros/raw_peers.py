@@ -5,7 +5,9 @@ import struct
 import urllib.parse
 import xmlrpc.client
 
-TIMEOUT = 20  # s
+from helpers import TIME_FACTOR
+
+TIMEOUT = 20 * TIME_FACTOR  # s
 
 
 def _header(**fields):
