@@ -14,23 +14,6 @@ namespace
 constexpr int kGradientUnknowns = 9;  // all but the constant
 static_assert(Moments::kCount == kMomentCount && TaubinFitter::kCapacity == kFitsAtOnce, "as in the kernels");
 
-using Vector10 = Eigen::Matrix<double, 10, 1>;
-
-TaubinFit makeFit(const Vector10& c, double eigenvalue, const Eigen::Vector3d& origin, double scale)
-{
-  TaubinFit fit;
-  fit.residual = std::max(0.0, eigenvalue);
-  Quadric& quadric = fit.quadric;
-  quadric.origin = origin;
-  quadric.scale = scale;
-  quadric.A << c[0], c[3] / 2, c[5] / 2,  //
-      c[3] / 2, c[1], c[4] / 2,           //
-      c[5] / 2, c[4] / 2, c[2];
-  quadric.b = c.segment<3>(6);
-  quadric.c = c[9];
-  return fit;
-}
-
 }  // namespace
 
 Moments::Moments(const Neighborhood& neighborhood, int degree)
@@ -119,11 +102,18 @@ std::size_t TaubinFitter::solvedFully() const
 
 TaubinFit TaubinFitter::Implementation::fitOf(std::size_t i) const
 {
-  Vector10 c;
-  for (Eigen::Index a = 0; a < c.size(); ++a) {
-    c[a] = lanes.coefficients[a][i];
-  }
-  return makeFit(c, lanes.eigenvalue[i], origins[i], scales[i]);
+  const auto c = [this, i](int a) { return lanes.coefficients[a][i]; };
+  TaubinFit fit;
+  fit.residual = std::max(0.0, lanes.eigenvalue[i]);
+  Quadric& quadric = fit.quadric;
+  quadric.origin = origins[i];
+  quadric.scale = scales[i];
+  quadric.A << c(0), c(3) / 2, c(5) / 2,  //
+      c(3) / 2, c(1), c(4) / 2,           //
+      c(5) / 2, c(4) / 2, c(2);
+  quadric.b << c(6), c(7), c(8);
+  quadric.c = c(9);
+  return fit;
 }
 
 std::optional<TaubinFit> fitTaubin(const Moments& moments, const Eigen::Vector3d& origin, double scale)

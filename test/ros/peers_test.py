@@ -203,9 +203,11 @@ class Peers(unittest.TestCase):
             good = cloud(width=64, height=48)
             published_clouds, expected = 0, None
             for name, bad in {**unusable(good), **strange(self.table)}.items():
-                for _ in range(5):
+                for i in range(5):
                     bad.header.stamp = rospy.Time.now()
                     clouds.publish(bad)
+                    if i == 0:  # else a slow node may find it superseded
+                        time.sleep(0.1 * (TIME_FACTOR - 1))
                 table = copy.copy(self.table)
                 table.header = copy.copy(self.table.header)
                 table.header.stamp = rospy.Time.now()
@@ -221,8 +223,7 @@ class Peers(unittest.TestCase):
                 self.assertLessEqual(statistics.clouds_received, published_clouds, name)
                 self.assertEqual(statistics.clouds_received, statistics.clouds_processed + statistics.clouds_dropped +
                                  statistics.clouds_rejected, name)
-            # Each kind once, but where the node is so slow that newer ones supersede it.
-            self.assertGreaterEqual(statistics.clouds_rejected, len(unusable(good)) // TIME_FACTOR)
+            self.assertGreaterEqual(statistics.clouds_rejected, len(unusable(good)))
             self.assertTrue(all(finite(message) for message in outputs['shells'].messages()))
             self.assertEqual(node.interrupt(), 0, node.output())
             for sign in ABNORMAL_ENDS[:-1]:  # the rejections are errors
