@@ -370,7 +370,7 @@ Outcome Frame::fitShell(const Eigen::Vector3d& axis, Shell& shell)
 
 }  // namespace
 
-Pipeline::Pipeline(const Config& config) : config_(config) {}
+Pipeline::Pipeline(Config config) : config_(std::move(config)) {}
 
 Localization Pipeline::localize(const PclCloud::ConstPtr& cloud)
 {

@@ -66,7 +66,7 @@ Circle fitCircle(const LocalPoints& points, const Eigen::Vector3d& axis);
 class Pipeline
 {
 public:
-  explicit Pipeline(const Config& config);
+  explicit Pipeline(Config config);
 
   Localization localize(const PclCloud::ConstPtr& cloud);
 

@@ -1,25 +1,16 @@
+#include "cli/command_line_test.h"
+
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 namespace grasp_affordances
 {
 namespace
 {
-
-std::string content(const std::string& path)
-{
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// How a call of `evaluate` ended.
 struct Call
@@ -28,20 +19,13 @@ struct Call
   std::string out, err;
 };
 
-class EvaluateTest : public testing::Test
+class EvaluateTest : public test::CommandLineTest
 {
 protected:
-  EvaluateTest() { std::filesystem::create_directories(folder_); }
-  ~EvaluateTest() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return folder_ / name; }
-
   Call evaluate(const std::string& arguments) const
   {
-    const int status =
-        std::system(("cd " + folder_.string() + " && exec " EVALUATE " " + arguments + " > stdout 2> stderr").c_str());
-    EXPECT_TRUE(WIFEXITED(status)) << arguments << " ended by signal " << WTERMSIG(status);
-    return {WEXITSTATUS(status), content(path("stdout")), content(path("stderr"))};
+    const int status = run("exec " EVALUATE " " + arguments);
+    return {status, content("stdout"), content("stderr")};
   }
 
   void expectFailure(const std::string& arguments, int status, const std::string& reason) const
@@ -52,9 +36,6 @@ protected:
     EXPECT_EQ(std::count(call.err.begin(), call.err.end(), '\n'), 1) << arguments << ": " << call.err;
     EXPECT_EQ(call.out, "") << arguments;
   }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("evaluate_test_" + std::to_string(::getpid()));
 };
 
 TEST_F(EvaluateTest, UsageThatMakesNoSenseIsRefused)
@@ -96,8 +77,8 @@ TEST_F(EvaluateTest, WritesTheSameTablesWithAnyNumberOfThreads)
   EXPECT_EQ(one.out, three.out);
   for (const std::string name :
        {"shells.csv", "handles.csv", "affordances.csv", "summary.csv", "summary.json", "table.md"}) {
-    EXPECT_GT(content(path("one/" + name)).size(), 100U) << name;
-    EXPECT_EQ(content(path("one/" + name)), content(path("three/" + name))) << name;
+    EXPECT_GT(content("one/" + name).size(), 100U) << name;
+    EXPECT_EQ(content("one/" + name), content("three/" + name)) << name;
   }
 }
 
@@ -109,7 +90,7 @@ TEST_F(EvaluateTest, TurnedCamerasAreViewsOfOneEvaluation)
   EXPECT_NE(call.out.find("2000 samples. Precision"), std::string::npos) << call.out;
   EXPECT_NE(call.out.find("2000 samples, 2 views. Precision"), std::string::npos) << call.out;
   EXPECT_NE(call.out.find(" recall: < 60, elsewhere ≥ 200 |"), std::string::npos) << call.out;
-  const std::string summary = content(path("summary.csv"));
+  const std::string summary = content("summary.csv");
   EXPECT_NE(summary.find("\nmugs,0,localizer,taubin,1,1,1,"), std::string::npos) << summary;
   EXPECT_NE(summary.find("\nmugs,0,localizer,taubin,2,1,1,"), std::string::npos) << summary;
 }
@@ -123,7 +104,7 @@ TEST_F(EvaluateTest, SamplingIsVariedInOneCall)
             std::string::npos)
       << call.out;
   EXPECT_NE(call.out.find("| table | localizer | taubin | 1 | 1000 | off |"), std::string::npos) << call.out;
-  const std::string samples = content(path("samples.csv"));
+  const std::string samples = content("samples.csv");
   EXPECT_EQ(std::count(samples.begin(), samples.end(), '\n'), 1 + 4) << samples;
   ASSERT_EQ(evaluate(options).status, 0);
   EXPECT_FALSE(std::filesystem::exists(path("samples.csv"))) << "of an earlier call";

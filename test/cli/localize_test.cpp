@@ -1,3 +1,4 @@
+#include "cli/command_line_test.h"
 #include "io/bag.h"
 #include "io/pcd.h"
 #include "support/recordings.h"
@@ -8,8 +9,6 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 #include <rosbag/bag.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -33,13 +32,6 @@ using Json = nlohmann::json;
 
 const float kNan = std::numeric_limits<float>::quiet_NaN();
 const char* const kLimitMemory = GRASP_AFFORDANCES_SANITIZER ? "true" : "ulimit -v 4000000";
-
-std::string content(const std::string& path)
-{
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 std::vector<std::string> lines(const std::string& text)
 {
@@ -67,22 +59,14 @@ struct Call
   }
 };
 
-class LocalizeTest : public testing::Test
+class LocalizeTest : public test::CommandLineTest
 {
 protected:
-  LocalizeTest() { std::filesystem::create_directories(folder_); }
-  ~LocalizeTest() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return folder_ / name; }
-
   /// @param limits  shell command before the call
   Call localize(const std::string& arguments, const std::string& limits = "true") const
   {
-    const std::string command =
-        "cd " + folder_.string() + " && " + limits + " && exec " LOCALIZE " " + arguments + " > stdout 2> stderr";
-    const int status = std::system(command.c_str());
-    EXPECT_TRUE(WIFEXITED(status)) << arguments << " ended by signal " << WTERMSIG(status);
-    return {WEXITSTATUS(status), content(path("stdout")), content(path("stderr"))};
+    const int status = run(limits + " && exec " LOCALIZE " " + arguments);
+    return {status, content("stdout"), content("stderr")};
   }
 
   template <typename PointT>
@@ -116,9 +100,6 @@ protected:
                  [](const pcl::PointXYZ& point) { return std::isfinite(point.z); });
     return result;
   }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("localize_test_" + std::to_string(::getpid()));
 };
 
 Eigen::Vector3d vector(const Json& json)
@@ -458,7 +439,7 @@ TEST_F(LocalizeTest, readsTheRecordedBag)
 TEST_F(LocalizeTest, reportsUnreadableInputsInOneLineAndGoesOn)
 {
   write("table.pcd", table());
-  const std::string whole = content(path("table.pcd"));
+  const std::string whole = content("table.pcd");
   const auto header = [](const std::string& fields, const std::string& width) {
     return "VERSION 0.7\nFIELDS " + fields + "\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + width +
            "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + width + "\nDATA binary\n" + std::string(24, 'x');
@@ -659,8 +640,8 @@ TEST_F(LocalizeTest, drawsPictures)
   const Call call = localize("--samples 2000 --picture out.v1.png table.pcd missing.pcd unorganized.pcd");
   EXPECT_EQ(call.status, 1);
   const std::string kSignature("\x89PNG\r\n\x1a\n\0\0\0\x0DIHDR\0\0\x05\0\0\0\x03\xC0", 24);  // 1280 x 960
-  EXPECT_EQ(content(path("out.v1.png")).substr(0, 24), kSignature);
-  EXPECT_EQ(content(path("out.v1-2.png")).substr(0, 24), kSignature);
+  EXPECT_EQ(content("out.v1.png").substr(0, 24), kSignature);
+  EXPECT_EQ(content("out.v1-2.png").substr(0, 24), kSignature);
   EXPECT_FALSE(std::filesystem::exists(path("out.v1-3.png")));
 
   const Call unwritable = localize("--json --samples 100 --picture nowhere/out.png table.pcd");
@@ -704,10 +685,8 @@ TEST_F(LocalizeTest, printsHelpAndVersion)
 TEST_F(LocalizeTest, saysWhenStdoutIsFull)
 {
   write("table.pcd", table());
-  const std::string command =
-      "cd " + folder_.string() + " && " LOCALIZE " --json --samples 10 table.pcd > /dev/full 2> stderr";
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
-  EXPECT_NE(content(path("stderr")).find("cannot write to stdout"), std::string::npos);
+  EXPECT_EQ(run("(" LOCALIZE " --json --samples 10 table.pcd > /dev/full)"), 1);
+  EXPECT_NE(content("stderr").find("cannot write to stdout"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
+#include "cli/command_line_test.h"
+
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,27 +21,9 @@ namespace
 using Json = nlohmann::json;
 
 /// `localize --view` on clouds that `simulate` wrote.
-class LocalizeViewsTest : public testing::Test
+class LocalizeViewsTest : public test::CommandLineTest
 {
 protected:
-  LocalizeViewsTest() { std::filesystem::create_directories(folder_); }
-  ~LocalizeViewsTest() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return folder_ / name; }
-
-  std::string content(const std::string& name) const
-  {
-    std::ostringstream text;
-    text << std::ifstream(path(name), std::ios::binary).rdbuf();
-    return text.str();
-  }
-
-  int run(const std::string& command) const
-  {
-    return WEXITSTATUS(
-        std::system(("cd " + folder_.string() + " && " + command + " > stdout 2> stderr < /dev/null").c_str()));
-  }
-
   /// The table by a turned camera, with its pose in the table's frame as VIEWPOINT and in NAME.json.
   void simulate(const std::string& name, int turn_degrees) const
   {
@@ -71,9 +52,6 @@ protected:
     }
     return text;
   }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("localize_views_test_" + std::to_string(::getpid()));
 };
 
 Eigen::Vector3d vector(const Json& json)

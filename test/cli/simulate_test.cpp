@@ -1,19 +1,17 @@
+#include "cli/command_line_test.h"
+
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 #include <png.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,32 +20,11 @@ namespace grasp_affordances
 namespace
 {
 
-class SimulateTest : public testing::Test
+class SimulateTest : public test::CommandLineTest
 {
 protected:
-  SimulateTest() { std::filesystem::create_directories(folder_); }
-  ~SimulateTest() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return folder_ / name; }
-
-  std::string content(const std::string& name) const
-  {
-    std::ostringstream text;
-    text << std::ifstream(path(name), std::ios::binary).rdbuf();
-    return text.str();
-  }
-
-  /// @return exit status; stdout and stderr are in files of these names
-  int simulate(const std::string& arguments) const
-  {
-    const std::string command = "cd " + folder_.string() + " && exec " SIMULATE " " + arguments + " > stdout 2> stderr";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-private:
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("simulate_test_" + std::to_string(getpid()));
+  /// @return exit status
+  int simulate(const std::string& arguments) const { return run("exec " SIMULATE " " + arguments); }
 };
 
 std::vector<std::uint16_t> readDepth(const std::string& file)

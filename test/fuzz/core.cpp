@@ -112,12 +112,6 @@ std::vector<PosedCloud> posedClouds(const CoreInput& input)
   return posed;
 }
 
-/// Bit by bit, NaN included.
-bool sameNumbers(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-  return std::memcmp(a.data(), b.data(), sizeof(a)) == 0;
-}
-
 void requireSame(const Localization& a, const Localization& b)
 {
   require(a.counts == b.counts && a.shells.size() == b.shells.size() && a.handles.size() == b.handles.size() &&
@@ -125,8 +119,8 @@ void requireSame(const Localization& a, const Localization& b)
           "a result depends on its input alone");
   for (std::size_t i = 0; i < a.shells.size(); ++i) {
     const Shell &one = a.shells[i], &other = b.shells[i];
-    require(sameNumbers(one.centroid, other.centroid) && sameNumbers(one.axis, other.axis) &&
-                one.length == other.length && one.inner_radius == other.inner_radius,
+    require(one.centroid == other.centroid && one.axis == other.axis && one.length == other.length &&
+                one.inner_radius == other.inner_radius,
             "a shell depends on its input alone");
   }
 }

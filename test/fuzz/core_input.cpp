@@ -126,7 +126,7 @@ PinholeIntrinsics depthIntrinsics(const Cloud& cloud, float focal_length)
 void fillCoordinates(ByteReader& input, Cloud& cloud)
 {
   for (std::size_t i = 0; i < cloud.size() && input.left() > 0; ++i) {
-    const float x = input.take<float>(), y = input.take<float>(), z = input.take<float>();
+    const auto x = input.take<float>(), y = input.take<float>(), z = input.take<float>();
     cloud.set(i, x, y, z);
   }
 }
@@ -135,7 +135,8 @@ void fillDepths(ByteReader& input, const PinholeIntrinsics& camera, float scale,
 {
   for (std::size_t i = 0; i < cloud.size() && input.left() > 0; ++i) {
     const float z = 0.001F * input.take<std::uint16_t>() * scale;
-    const double u = static_cast<double>(i % cloud.width), v = static_cast<double>(i / cloud.width);
+    const std::size_t column = i % cloud.width, row = i / cloud.width;
+    const auto u = static_cast<double>(column), v = static_cast<double>(row);
     cloud.set(i, static_cast<float>((u - camera.cx) / camera.fx * z),
               static_cast<float>((v - camera.cy) / camera.fy * z), z);
   }
@@ -144,8 +145,9 @@ void fillDepths(ByteReader& input, const PinholeIntrinsics& camera, float scale,
 /// Points of one thing, in front of the sensor: what is regular in measurements seldom is, here is exactly.
 Eigen::Vector3d shapePoint(unsigned shape, std::size_t i, std::size_t columns, double size)
 {
-  const double s = static_cast<double>(i), golden = 2.399963229728653;
-  const double column = static_cast<double>(i % columns), row = static_cast<double>(i / columns);
+  const std::size_t u = i % columns, v = i / columns;
+  const auto s = static_cast<double>(i), column = static_cast<double>(u), row = static_cast<double>(v);
+  const double golden = 2.399963229728653;
   const Eigen::Vector3d center(0.0, 0.0, 1.0);
   switch (shape) {
     case 0:  // one place
@@ -161,8 +163,10 @@ Eigen::Vector3d shapePoint(unsigned shape, std::size_t i, std::size_t columns, d
       const double z = std::fmod(0.618033988749895 * s, 1.0) * 2.0 - 1.0, r = std::sqrt(1.0 - z * z);
       return center + 10 * size * Eigen::Vector3d(r * std::cos(golden * s), r * std::sin(golden * s), z);
     }
-    case 5:  // a lattice in space
-      return center + size * Eigen::Vector3d(i % 8, i / 8 % 8, i / 64);
+    case 5: {  // a lattice in space
+      const std::size_t layer = i / 64;
+      return center + size * Eigen::Vector3d(i % 8, i / 8 % 8, layer);
+    }
     case 6:  // two places, each many times
       return center + (i % 2) * Eigen::Vector3d(size, 0.0, 0.0);
     default:  // a spiral that ever more points close in on
@@ -251,7 +255,7 @@ Cloud decodeCloud(ByteReader& input, std::size_t room)
   if (intrinsics == Intrinsics::right) {
     cloud.intrinsics = depthIntrinsics(cloud, focal_length);
   } else if (intrinsics == Intrinsics::wrong) {
-    const float fx = input.take<float>(), fy = input.take<float>(), cx = input.take<float>(), cy = input.take<float>();
+    const auto fx = input.take<float>(), fy = input.take<float>(), cx = input.take<float>(), cy = input.take<float>();
     cloud.intrinsics = PinholeIntrinsics{fx, fy, cx, cy};
   }
   switch (filling) {

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <string>
 
 namespace grasp_affordances::fuzz
 {
@@ -11,7 +12,7 @@ inline double longestSeconds()
 {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes the environment
   static const char* const factor = std::getenv("GRASP_AFFORDANCES_TIME_FACTOR");
-  return factor == nullptr ? 1.0 : std::atof(factor);
+  return factor == nullptr ? 1.0 : std::stod(factor);
 }
 
 /// Independent of what else the machine does.

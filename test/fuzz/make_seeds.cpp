@@ -11,11 +11,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grasp_affordances::fuzz
@@ -29,7 +32,7 @@ namespace fs = std::filesystem;
 class Seeds
 {
 public:
-  explicit Seeds(const fs::path& folder) : folder_(folder)
+  explicit Seeds(fs::path folder) : folder_(std::move(folder))
   {
     for (const Target& target : kTargets) {
       fs::create_directories(folder_ / target.name);
@@ -187,18 +190,18 @@ void writePcdSeeds(const Seeds& seeds, const Cloud& cloud)
 std::string withoutPadding(std::string bag)
 {
   const std::size_t start = std::string("#ROSBAG V2.0\n").size();
-  const auto at = [&bag](std::size_t place, auto& value) { std::memcpy(&value, &bag[place], sizeof(value)); };
+  const auto at = [&bag](std::size_t place, auto value) {
+    std::memcpy(&value, &bag[place], sizeof(value));
+    return value;
+  };
   const auto put = [&bag](std::size_t place, auto value) { std::memcpy(&bag[place], &value, sizeof(value)); };
-  std::uint32_t header, padding;
-  at(start, header);
-  at(start + 4 + header, padding);
+  const auto header = at(start, std::uint32_t{0});
+  const auto padding = at(start + 4 + header, std::uint32_t{0});
   put(start + 4 + header, std::uint32_t{0});
   bag.erase(start + 4 + header + 4, padding);
   for (const std::string key : {"index_pos=", "chunk_pos="}) {
     for (std::size_t found = bag.find(key); found != std::string::npos; found = bag.find(key, found + 1)) {
-      std::uint64_t place;
-      at(found + key.size(), place);
-      put(found + key.size(), place - padding);
+      put(found + key.size(), at(found + key.size(), std::uint64_t{0}) - padding);
     }
   }
   return bag;
@@ -276,6 +279,11 @@ int main(int argc, char** argv)
     std::cerr << "make_fuzz_seeds FOLDER\n";
     return 2;
   }
-  grasp_affordances::fuzz::writeSeeds(argv[1]);
+  try {
+    grasp_affordances::fuzz::writeSeeds(argv[1]);
+  } catch (const std::exception& error) {
+    std::cerr << "make_fuzz_seeds: " << error.what() << '\n';
+    return 1;
+  }
   return 0;
 }

@@ -18,6 +18,7 @@ public:
   VirtualBusFile() : path_(testing::TempDir() + "virtual_devices_" + std::to_string(getpid()) + ".yaml")
   {
     write("[]");
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): before there is another thread
     setenv("GRASP_AFFORDANCES_VIRTUAL_DEVICES", path_.c_str(), 1);
   }
 

@@ -315,6 +315,7 @@ TEST_F(VirtualDeviceTest, AListThatCannotBeReadIsSaidOnceAndChangesNothing)
 
 TEST_F(VirtualDeviceTest, WithoutAListThereIsOneDevice)
 {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): before there is another thread
   unsetenv("GRASP_AFFORDANCES_VIRTUAL_DEVICES");
   require(openni::OpenNI::initialize());
   openni::Array<openni::DeviceInfo> devices;

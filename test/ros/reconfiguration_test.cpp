@@ -92,7 +92,7 @@ private:
   {
     std::map<std::string, dynamic_reconfigure::ParamDescription> result;
     for (const auto& parameter : LocalizerConfig::__getParamDescriptions__()) {
-      result[parameter->name] = *parameter;
+      result[parameter->name] = *parameter;  // NOLINT(cppcoreguidelines-slicing): all of it that is a message
     }
     return result;
   }

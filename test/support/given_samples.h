@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grasp_affordances::test
@@ -28,7 +29,7 @@ using SamplePoints = std::vector<PreparedViews::SamplePoint>;
 class GivenSamples
 {
 public:
-  GivenSamples(const std::vector<PosedCloud>& clouds, const Config& config) : config_(config), team_(1)
+  GivenSamples(const std::vector<PosedCloud>& clouds, Config config) : config_(std::move(config)), team_(1)
   {
     views_.update(clouds, config_, Eigen::Isometry3d::Identity(), team_);
   }

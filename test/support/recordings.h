@@ -38,6 +38,6 @@ inline std::string recordingsFolder()
 /// Skips the test where the recordings are absent; otherwise declares `folder`.
 #define REQUIRE_RECORDINGS(folder)                                         \
   const std::string folder = grasp_affordances::test::recordingsFolder();  \
-  if (folder.empty()) {                                                    \
+  if ((folder).empty()) {                                                  \
     GTEST_SKIP() << "SKIPPED: no recordings (set GRASP_AFFORDANCES_DATA)"; \
   }

@@ -26,10 +26,12 @@ std::atomic<std::size_t> allocations{0};  // of all threads, since the start of 
 #if !GRASP_AFFORDANCES_SANITIZER
 // Watches everything that asks for memory: operator new, Eigen and TBB, too, end up here.
 extern "C" {
+// NOLINTBEGIN(readability-identifier-naming): glibc's names
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+// NOLINTEND(readability-identifier-naming)
 
 void* malloc(std::size_t size)
 {
@@ -37,16 +39,16 @@ void* malloc(std::size_t size)
   return __libc_malloc(size);
 }
 
-void* calloc(std::size_t count, std::size_t size)
+void* calloc(std::size_t nmemb, std::size_t size)
 {
   ++allocations;
-  return __libc_calloc(count, size);
+  return __libc_calloc(nmemb, size);
 }
 
-void* realloc(void* memory, std::size_t size)
+void* realloc(void* ptr, std::size_t size)
 {
   ++allocations;
-  return __libc_realloc(memory, size);
+  return __libc_realloc(ptr, size);
 }
 
 void* aligned_alloc(std::size_t alignment, std::size_t size)

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grasp_affordances::test
@@ -53,8 +54,8 @@ struct Frame
 {
   Eigen::Vector3d origin, axis, first, second;
 
-  Frame(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis)
-      : origin(origin), axis(axis), first(axis.unitOrthogonal()), second(axis.cross(first))
+  Frame(Eigen::Vector3d at, Eigen::Vector3d along)
+      : origin(std::move(at)), axis(std::move(along)), first(axis.unitOrthogonal()), second(axis.cross(first))
   {
   }
   AxisFrame plain() const
@@ -223,7 +224,8 @@ public:
     cloud_.intrinsics = PinholeIntrinsics{260.0, -240.0, 81.3, 58.1};
     const PinholeIntrinsics& camera = *cloud_.intrinsics;
     for (std::size_t i = 0; i < cloud_.size(); ++i) {
-      const auto u = static_cast<double>(i % 160), v = static_cast<double>(i / 160);
+      const std::size_t column = i % 160, row = i / 160;
+      const auto u = static_cast<double>(column), v = static_cast<double>(row);
       const double z = nearest + 0.0008 * u + random.uniform(0.0, 0.05);
       if (random.uniform(0.0, 1.0) > 0.1) {
         cloud_.set(i, static_cast<float>((u - camera.cx) / camera.fx * z),

@@ -1,18 +1,16 @@
 #include "io/bag.h"
+#include "support/test_with_folder.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <std_msgs/String.h>
 
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
 #include <string>
 #include <vector>
-
-#include <unistd.h>
 
 namespace grasp_affordances
 {
@@ -44,12 +42,9 @@ sensor_msgs::PointCloud2 makeMessage(std::uint32_t width)
   return message;
 }
 
-class BagTest : public testing::Test
+class BagTest : public test::TestWithFolder
 {
 protected:
-  BagTest() { std::filesystem::create_directories(folder_); }
-  ~BagTest() override { std::filesystem::remove_all(folder_); }
-
   std::string path(const std::string& name = "clouds.bag") const { return folder_ / name; }
 
   /// Three clouds on /points and a word on /word; two clouds on /other, if wanted.
@@ -112,9 +107,6 @@ protected:
     std::ofstream(path("changed.bag"), std::ios::binary) << text;
     return path("changed.bag");
   }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("bag_test_" + std::to_string(::getpid()));
 };
 
 TEST_F(BagTest, readsTheOnlyTopic)
@@ -262,7 +254,7 @@ TEST_F(BagTest, refusesMessagesThatAreNotThere)
 {
   const std::string good = content(writeBag(false));
   // The last entry of the index before the connections: seconds, nanoseconds, place.
-  std::uint64_t index_position;
+  std::uint64_t index_position = 0;
   std::memcpy(&index_position, &good[behind(good, "index_pos=")], sizeof(index_position));
   const std::size_t entry = index_position - 12;
   expectRefused(writeFile(changed(good, entry + 8, kHuge)), "", "a message reaches beyond its end");
@@ -315,7 +307,7 @@ TEST_F(BagTest, refusesOtherBags)
   std::string encrypted = content(writeBag(false));
   const std::string field = std::string("\x0b\0\0\0encryptor=x", 15);
   const std::size_t header = std::string("#ROSBAG V2.0\n").size();
-  std::uint32_t length;
+  std::uint32_t length = 0;
   std::memcpy(&length, &encrypted[header], sizeof(length));
   encrypted.insert(header + 4 + length, field);
   length += static_cast<std::uint32_t>(field.size());

@@ -229,7 +229,7 @@ TEST(ConfigFromYaml, RefusesWithNameValueAndRange)
 /// What a file holds is quoted in one line, however long.
 TEST(ConfigFromYaml, AnswersWithOneLine)
 {
-  const std::string long_word(100000, 'x'), lines = "\"first\\nsecond\\e[31m\"";
+  const std::string long_word(100000, 'x'), lines = R"("first\nsecond\e[31m")";
   for (const std::string& value : {long_word, lines, std::string("[1, 2]"), "{a: " + long_word + ", b: [*]}"}) {
     for (const char* name : {"preset", "estimation/estimator", "hand/capture_radius", "sampling/samples", "unknown"}) {
       const std::string message = messageOf(name + std::string(": ") + value);

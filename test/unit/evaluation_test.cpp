@@ -8,11 +8,11 @@
 #include "evaluation/summary.h"
 #include "rendering/picture_camera.h"
 #include "support/points.h"
+#include "support/test_with_folder.h"
 
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -457,12 +457,9 @@ TEST(Evaluate, FailsWithTheFrameThatCannotBeLoaded)
   EXPECT_THROW(evaluate(frames, {{fewSamples()}}, 1, 2, [] {}), std::runtime_error);
 }
 
-class EvaluationFiles : public testing::Test
+class EvaluationFiles : public TestWithFolder
 {
 protected:
-  EvaluationFiles() { std::filesystem::create_directories(folder_); }
-  ~EvaluationFiles() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) const
   {
     std::ofstream(folder_ / name) << text;
@@ -478,9 +475,6 @@ protected:
     }
     return result;
   }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("evaluation_test_" + std::to_string(::getpid()));
 };
 
 TEST_F(EvaluationFiles, ReportHasARowPerShellAndPerAffordance)
@@ -561,20 +555,20 @@ TEST_F(EvaluationFiles, RecordingsThatCannotBeReadAreErrorsWithThePath)
   };
   const auto of_file = [&](const std::string& path) { return reason([&] { recordedFrames(path); }); };
   EXPECT_NE(of_file(folder_ / "absent.json").find("absent.json: cannot be read"), std::string::npos);
-  for (const char* text : {"", "{\"scenes\": {}", "{\"scenes\": {\"a\": {}}, \"capture_radius\": 1}",
-                           "{\"scenes\": {\"a\": {\"affordances\": [], \"ignore\": []}}}",
-                           "{\"scenes\": {\"a\": {\"affordances\": [[-]], \"ignore\": []}}, \"capture_radius\": 1}"}) {
+  for (const char* text : {"", R"({"scenes": {})", R"({"scenes": {"a": {}}, "capture_radius": 1})",
+                           R"({"scenes": {"a": {"affordances": [], "ignore": []}}})",
+                           R"({"scenes": {"a": {"affordances": [[-]], "ignore": []}}, "capture_radius": 1})"}) {
     EXPECT_EQ(of_file(write("bad.json", text)).find((folder_ / "bad.json").string() + ": "), 0U) << text;
   }
   const auto of_scene = [&](const std::string& name, const std::string& scene, const std::string& radius = "0.04") {
     return of_file(
-        write("bad.json", "{\"scenes\": {\"" + name + "\": " + scene + "}, \"capture_radius\": " + radius + "}"));
+        write("bad.json", R"({"scenes": {")" + name + "\": " + scene + R"(}, "capture_radius": )" + radius + "}"));
   };
   const std::string good = R"({"affordances": [[1]], "ignore": [4294967295]})";
   EXPECT_EQ(of_scene("a", good), "nothing thrown");
   for (const std::string object : {"-1", "1.5", "1e300", "4294967296", "null", "\"1\"", "[1]"}) {
-    const std::string grasped = "{\"affordances\": [[" + object + "]], \"ignore\": []}";
-    const std::string ignored = "{\"affordances\": [], \"ignore\": [" + object + "]}";
+    const std::string grasped = R"({"affordances": [[)" + object + R"(]], "ignore": []})";
+    const std::string ignored = R"({"affordances": [], "ignore": [)" + object + "]}";
     EXPECT_NE(of_scene("a", grasped).find("is no label of an object"), std::string::npos) << object;
     EXPECT_NE(of_scene("a", ignored).find("is no label of an object"), std::string::npos) << object;
   }

@@ -8,13 +8,13 @@
 #include "simulation/sensor.h"
 #include "simulation/tableware.h"
 #include "support/points.h"
+#include "support/same_number.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -115,7 +115,7 @@ bool sameBytes(const std::vector<GraspPose>& a, const std::vector<GraspPose>& b)
 {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const GraspPose& x, const GraspPose& y) {
            return x.pose.matrix() == y.pose.matrix() && x.width == y.width && x.score == y.score &&
-                  std::memcmp(&x.observed_free, &y.observed_free, sizeof(double)) == 0;
+                  sameNumber(x.observed_free, y.observed_free);
          });
 }
 
@@ -224,7 +224,7 @@ TEST(HandPoses, AreSortedByTheDocumentedScore)
   config.shell.continue_surfaces = false;  // so that points are measured ones
   Localizer localizer(config);
   std::size_t judged = 0;
-  for (GraspHandle handle : localizer.localize(cloud).handles) {
+  for (const GraspHandle& handle : localizer.localize(cloud).handles) {
     const double length = lengthOf(handle.polyline);
     const std::vector<GraspPose> hands = search(cloud, config, handle);
     for (std::size_t i = 0; i < hands.size(); ++i) {

@@ -51,7 +51,8 @@ public:
     Random random(3);
     cloud.reset(kWidth, kHeight);
     for (std::size_t i = 0; i < kPoints; ++i) {
-      const double u = static_cast<double>(i % kWidth), v = static_cast<double>(i / kWidth);
+      const std::size_t column = i % kWidth, row = i / kWidth;
+      const auto u = static_cast<double>(column), v = static_cast<double>(row);
       const double z = 0.8 + 0.01 * std::sin(0.3 * u) + random.uniform(0.0, 0.004);
       if (i % 7 != 3) {
         cloud.set(i, static_cast<float>((u - 30.0) / 575.0 * z), static_cast<float>((v - 11.0) / 575.0 * z),
@@ -325,7 +326,7 @@ TEST_P(Kernel, TakesCurvaturesOnTheQuadric)
     std::array<double, kRoom> x{}, y{}, z{}, squared{};
     std::vector<Eigen::Vector3d> points;
     for (std::size_t i = 0; i < kCount; ++i) {
-      points.push_back(random.uniform(0.0, 1.0) * random.direction());
+      points.emplace_back(random.uniform(0.0, 1.0) * random.direction());
       x[i] = points[i].x(), y[i] = points[i].y(), z[i] = points[i].z();
     }
     const double sensor[3] = {0.0, 0.0, -30.0};

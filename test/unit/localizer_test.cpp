@@ -275,7 +275,7 @@ TEST(Localizer, FindsTheHandleOfAMugButNotItsInside)
 /// The forged bar: a strip of wall between the shadows of two plates.
 TEST(PaperPreset, RejectsABackgroundShapeForgedByShadows)
 {
-  const Frame shadow = captureStrip("shadow", 1), removed = captureStrip("shadow_removed", 1);
+  const LabelledFrame shadow = captureStrip("shadow", 1), removed = captureStrip("shadow_removed", 1);
   const auto onTheStrip = [](const Frame& frame, const Localization& result) {
     int shells = 0;
     for (const Shell& shell : result.shells) {

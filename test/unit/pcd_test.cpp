@@ -1,6 +1,7 @@
 #include "io/pcd.h"
 
 #include "support/allocations.h"
+#include "support/test_with_folder.h"
 
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
@@ -11,14 +12,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <random>
 #include <string>
 #include <vector>
-
-#include <unistd.h>
 
 namespace grasp_affordances
 {
@@ -57,12 +55,9 @@ std::string block(const std::string& raw)
          static_cast<char>(raw.size() - 1) + raw;
 }
 
-class PcdTest : public testing::Test
+class PcdTest : public test::TestWithFolder
 {
 protected:
-  PcdTest() { std::filesystem::create_directories(folder_); }
-  ~PcdTest() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& content)
   {
     const std::string path = folder_ / "cloud.pcd";
@@ -88,9 +83,6 @@ protected:
     EXPECT_EQ(message.find('\n'), std::string::npos);
     EXPECT_LT(largest, 200000U) << reason;
   }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("pcd_test_" + std::to_string(::getpid()));
 };
 
 const std::string kTwoPoints = bytes({1, 2, 3, 4, 5, 6});

@@ -28,7 +28,7 @@ struct Surface
   double (*distance)(double size, const Eigen::Vector3d& p);  // to first order
 };
 
-Points withinUnitSphere(Points points, const Eigen::Vector3d& center)
+Points withinUnitSphere(const Points& points, const Eigen::Vector3d& center)
 {
   Points kept;
   for (const Eigen::Vector3d& p : points) {

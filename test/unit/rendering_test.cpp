@@ -2,6 +2,7 @@
 #include "rendering/label_place.h"
 #include "rendering/picture.h"
 #include "rendering/picture_camera.h"
+#include "support/test_with_folder.h"
 
 #include <cairo.h>
 #include <gtest/gtest.h>
@@ -9,14 +10,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <unistd.h>
 
 namespace grasp_affordances
 {
@@ -92,21 +90,15 @@ float redness(const Color& color)
   return color.r - std::max(color.g, color.b);
 }
 
-class RenderingTest : public testing::Test
+class RenderingTest : public test::TestWithFolder
 {
 protected:
-  RenderingTest() { std::filesystem::create_directories(folder_); }
-  ~RenderingTest() override { std::filesystem::remove_all(folder_); }
-
   Image saved(const Picture& picture) const
   {
     const std::string path = folder_ / "picture.png";
     picture.save(path);
     return Image(path);
   }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("rendering_test_" + std::to_string(::getpid()));
 };
 
 const ShellStyle kRed{{1.0F, 0.0F, 0.0F}, 1.0, 0.5, 3.0, true};

@@ -135,10 +135,11 @@ std::optional<float> plainDistanceToEdge(const Cloud& cloud, std::size_t pixel, 
 {
   const float gap = 0.75F * static_cast<float>(kHand.finger_thickness) / static_cast<float>(spacing);
   const float pitch = std::max(1.0F, 0.5F * gap);
+  const std::size_t column = pixel % cloud.width, row = pixel / cloud.width;
   std::optional<float> edge;
   for (float s = pitch; s <= farthest + gap + pitch; s += pitch) {
-    const float u = std::floor(static_cast<float>(pixel % cloud.width) + s * du + 0.5F);
-    const float v = std::floor(static_cast<float>(pixel / cloud.width) + s * dv + 0.5F);
+    const float u = std::floor(static_cast<float>(column) + s * du + 0.5F);
+    const float v = std::floor(static_cast<float>(row) + s * dv + 0.5F);
     if (u < 0.0F || v < 0.0F || u >= kWidth || v >= kHeight) {
       return std::nullopt;
     }

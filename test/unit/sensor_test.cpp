@@ -164,9 +164,9 @@ TEST(VisibleSurfaces, AreThoseOfAllPartsOneByOne)
       findVisibleSurfaces(view.scene, T_scene_camera, model.intrinsics, model.width, model.height);
   std::vector<std::size_t> seen(view.scene.parts().size(), 0);
   for (std::size_t pixel = 0; pixel < visible.opaque.depth.size(); ++pixel) {
-    const Eigen::Vector3d direction(
-        (static_cast<double>(pixel % model.width) - model.intrinsics.cx) / model.intrinsics.fx,
-        (static_cast<double>(pixel / model.width) - model.intrinsics.cy) / model.intrinsics.fy, 1.0);
+    const std::size_t u = pixel % model.width, v = pixel / model.width;
+    const Eigen::Vector3d direction((static_cast<double>(u) - model.intrinsics.cx) / model.intrinsics.fx,
+                                    (static_cast<double>(v) - model.intrinsics.cy) / model.intrinsics.fy, 1.0);
     double nearest[2] = {kNoIntersection, kNoIntersection};
     std::int32_t part[2] = {-1, -1};
     for (std::size_t k = 0; k < view.scene.parts().size(); ++k) {
@@ -392,8 +392,9 @@ TEST(Xtion, CloudIsWhatDepthImageProcMakesOfTheDepthImage)
       continue;
     const Eigen::Vector3d p = frame.cloud.point(i).cast<double>();
     ASSERT_EQ(frame.cloud.z[i], static_cast<float>(frame.depth[i]) * 0.001F);
-    ASSERT_NEAR(camera.fx * p.x() / p.z() + camera.cx, static_cast<double>(i % 640), 1e-3);
-    ASSERT_NEAR(camera.fy * p.y() / p.z() + camera.cy, static_cast<double>(i / 640), 1e-3);
+    const std::size_t u = i % 640, v = i / 640;
+    ASSERT_NEAR(camera.fx * p.x() / p.z() + camera.cx, static_cast<double>(u), 1e-3);
+    ASSERT_NEAR(camera.fy * p.y() / p.z() + camera.cy, static_cast<double>(v), 1e-3);
   }
   EXPECT_GT(measured(frame), 250000u);
 }
@@ -515,8 +516,9 @@ TEST(Xtion, LosesSurfacesAtGrazingAngles)
     const Eigen::Vector3d normal(0.0, std::sin(tilt * kDegree), -std::cos(tilt * kDegree));
     const XtionModel model;
     for (std::size_t i = 0; i < frame.depth.size(); ++i) {
-      const Eigen::Vector3d ray((static_cast<double>(i % 640) - model.intrinsics.cx) / model.intrinsics.fx,
-                                (static_cast<double>(i / 640) - model.intrinsics.cy) / model.intrinsics.fy, 1.0);
+      const std::size_t u = i % 640, v = i / 640;
+      const Eigen::Vector3d ray((static_cast<double>(u) - model.intrinsics.cx) / model.intrinsics.fx,
+                                (static_cast<double>(v) - model.intrinsics.cy) / model.intrinsics.fy, 1.0);
       const double depth = normal.z() / normal.dot(ray);
       if (!(depth > 0.6 && depth < 3.0))
         continue;
@@ -563,8 +565,9 @@ TEST(Xtion, ShinySurfacesHaveAHoleWhereTheyMirrorTheProjector)
   const auto shareWithin = [&](double least, double most) {
     double pixels = 0.0, found = 0.0;
     for (std::size_t i = 0; i < frame.depth.size(); ++i) {
-      const double x = (static_cast<double>(i % 640) - 319.5) / 575.8 - 0.0375;
-      const double y = (static_cast<double>(i / 640) - 239.5) / 575.8;
+      const std::size_t u = i % 640, v = i / 640;
+      const double x = (static_cast<double>(u) - 319.5) / 575.8 - 0.0375;
+      const double y = (static_cast<double>(v) - 239.5) / 575.8;
       const double sine = std::hypot(x, y) / std::hypot(x, y, 1.0);
       if (sine < least || sine >= most)
         continue;

@@ -22,7 +22,8 @@ Cloud sheet()
   cloud.reset(kWidth, kHeight);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (i % 11 != 3) {
-      const float x = 0.005F * static_cast<float>(i % kWidth), y = 0.005F * static_cast<float>(i / kWidth);
+      const std::size_t column = i % kWidth, row = i / kWidth;
+      const float x = 0.005F * static_cast<float>(column), y = 0.005F * static_cast<float>(row);
       cloud.set(i, x, y, 1.0F + 4.0F * x * x + 0.5F * y);
     }
   }
