@@ -27,6 +27,9 @@ TIME_FACTOR = int(os.environ.get('GRASP_AFFORDANCES_TIME_FACTOR', 1))
 # AddressSanitizer keeps what was freed for a while: there the size of a process says nothing of what it uses.
 FREED_MEMORY_IS_KEPT = 'ASAN_OPTIONS' in os.environ
 
+# How often a byte that is used counts in the size of a process: ThreadSanitizer has four bytes of its own for each.
+MEMORY_FACTOR = 5 if 'TSAN_OPTIONS' in os.environ else 1
+
 _scenes = None
 
 

@@ -17,7 +17,7 @@ import rostest
 from visualization_msgs.msg import Marker, MarkerArray
 
 from grasp_affordances.msg import CylindricalShellArray, HandleArray, LocalizationStatistics
-from helpers import FREED_MEMORY_IS_KEPT, TIME_FACTOR, Launch, Listener, recordings, serialized, wait_until
+from helpers import FREED_MEMORY_IS_KEPT, MEMORY_FACTOR, TIME_FACTOR, Launch, Listener, recordings, serialized, wait_until
 
 LOOPS = 5
 
@@ -116,7 +116,8 @@ class Playback(unittest.TestCase):
         # In each round the first image, where its transform came just before the recording.
         self.assertLessEqual(last.clouds_without_transform, LOOPS + 1)
         if not FREED_MEMORY_IS_KEPT:
-            self.assertLess(sizes[-1] - sizes[1], 10, sizes)  # MB: two clouds, more or less of which are on their way
+            # MB: two clouds, more or less of which are on their way.
+            self.assertLess(sizes[-1] - sizes[1], 10 * MEMORY_FACTOR, sizes)
         self.assertIn('time goes back', playback.output())
         for sign in ('TF_OLD_DATA', 'TF_REPEATED_DATA', 'has died'):
             self.assertNotIn(sign, playback.output())
