@@ -52,9 +52,8 @@ class Run:
         return next((edges for elapsed, edges, _, _ in reversed(self.coverage) if elapsed <= seconds), 0)
 
     def summary(self):
-        rate = self.executions / max(self.processor_seconds, 1e-3)
-        text = (f"{self.target:13} {self.executions:9} executions in {self.seconds:5.0f} s, {rate:6.0f} per s of "
-                f"processor time")
+        text = (f"{self.target:13} {self.executions:9} executions in {self.seconds:5.0f} s, "
+                f"{self.processor_seconds:5.0f} s of them on a processor")
         if self.coverage:
             (_, edges, features, _), (_, last_edges, last_features, corpus) = self.coverage[0], self.coverage[-1]
             at = "".join(
