@@ -148,7 +148,7 @@ void expectShell(const Cloud& cloud, const Json& shell, bool has_curvature, bool
   EXPECT_NEAR(axis.norm(), 1.0, 1e-9);
   EXPECT_NEAR(normal.norm(), 1.0, 1e-9);
   EXPECT_NEAR(axis.dot(normal), 0.0, 1e-9);
-  Eigen::Index largest;
+  Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
   EXPECT_GT(axis[largest], 0.0);
   EXPECT_LT(normal.dot(vector(shell["centroid"])), 0.0) << "towards the sensor at the origin";
@@ -512,7 +512,8 @@ TEST_F(OddClouds, withNothingToLocalizeSayWhyInOneLine)
              "empty");
   pcl::PointCloud<pcl::PointXYZ> wall = good;  // on the pixels' rays, at a depth of 1 m
   for (std::size_t i = 0; i < wall.size(); ++i) {
-    wall[i] = {(i % 640 - 319.5F) / 525.0F, (i / 640 - 239.5F) / 525.0F, 1.0F};
+    const std::size_t u = i % 640, v = i / 640;
+    wall[i] = {(u - 319.5F) / 525.0F, (v - 239.5F) / 525.0F, 1.0F};
   }
   expectDone(write("wall.pcd", wall), "No handle: of 500 samples 500 ended ");
 }
