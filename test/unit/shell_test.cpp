@@ -197,6 +197,23 @@ TEST(ShellSearch, TriesTheLargestShellThatTheHandCanEncloseAfterRecentering)
 }
 
 /// A wall that was not measured but is taken to go on behind the bar counts against the gap, not as points in it.
+/// The smallest radius that is a whole number of steps below the capture radius is zero then, but for rounding.
+TEST(ShellSearch, HasNoNegativeRadiusAboutAThread)
+{
+  Random random(1);
+  Points thread;
+  for (int i = 0; i < 200; ++i) {
+    thread.emplace_back(random.uniform(-1e-20, 1e-20), random.uniform(-1e-20, 1e-20), random.uniform(-0.02, 0.02));
+  }
+  ShellConfig config = localizerShell();
+  config.measure_length = false;
+  ASSERT_TRUE(config.recenter);
+  const ShellSearchResult result = searchShell(thread, 0.0, config);
+  ASSERT_EQ(result.status, ShellSearchResult::found);
+  EXPECT_GE(result.inner_radius, 0.0);
+  EXPECT_LE(result.inner_radius, 2 * config.radius_step);
+}
+
 TEST(ShellSearch, HiddenSurfacesBlockTheGap)
 {
   const Cloud cloud = cloudOf(bar(0.012, 0.06));
