@@ -135,8 +135,8 @@ std::optional<FittedCylinder> DirectedSearch::refit() const
                     circle->center.y() * asVector(frame_->second);
   const double room = hand_.capture_radius - circle->radius;
   constexpr double kRounding = 1.0 + 1e-12;  // or the search, counting the steps back, might lose the last one
-  const double steps = std::floor(room / config_.radius_step) * config_.radius_step * kRounding;
-  refitted.radius = room >= 0.0 ? std::max(0.0, hand_.capture_radius - steps) : circle->radius;
+  const double whole_steps = std::floor(room / config_.radius_step) * config_.radius_step * kRounding;
+  refitted.radius = room >= 0.0 ? std::max(0.0, hand_.capture_radius - whole_steps) : circle->radius;
   return refitted;
 }
 
