@@ -2,6 +2,7 @@
 #include "fuzz/core_input.h"
 #include "fuzz/targets.h"
 #include "grasp_affordances/localizer.h"
+#include "support/same_bits.h"
 
 #include <cmath>
 #include <numeric>
@@ -112,6 +113,11 @@ std::vector<PosedCloud> posedClouds(const CoreInput& input)
   return posed;
 }
 
+bool sameBits(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  return test::sameBits(a.x(), b.x()) && test::sameBits(a.y(), b.y()) && test::sameBits(a.z(), b.z());
+}
+
 void requireSame(const Localization& a, const Localization& b)
 {
   require(a.counts == b.counts && a.shells.size() == b.shells.size() && a.handles.size() == b.handles.size() &&
@@ -119,7 +125,7 @@ void requireSame(const Localization& a, const Localization& b)
           "a result depends on its input alone");
   for (std::size_t i = 0; i < a.shells.size(); ++i) {
     const Shell &one = a.shells[i], &other = b.shells[i];
-    require(one.centroid == other.centroid && one.axis == other.axis && one.length == other.length &&
+    require(sameBits(one.centroid, other.centroid) && sameBits(one.axis, other.axis) && one.length == other.length &&
                 one.inner_radius == other.inner_radius,
             "a shell depends on its input alone");
   }

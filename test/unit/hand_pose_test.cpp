@@ -8,7 +8,7 @@
 #include "simulation/sensor.h"
 #include "simulation/tableware.h"
 #include "support/points.h"
-#include "support/same_number.h"
+#include "support/same_bits.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -115,7 +115,7 @@ bool sameBytes(const std::vector<GraspPose>& a, const std::vector<GraspPose>& b)
 {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const GraspPose& x, const GraspPose& y) {
            return x.pose.matrix() == y.pose.matrix() && x.width == y.width && x.score == y.score &&
-                  sameNumber(x.observed_free, y.observed_free);
+                  sameBits(x.observed_free, y.observed_free);
          });
 }
 

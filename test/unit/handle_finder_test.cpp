@@ -9,7 +9,7 @@
 #include "simulation/sensor.h"
 #include "simulation/tableware.h"
 #include "support/points.h"
-#include "support/same_number.h"
+#include "support/same_bits.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ bool sameShape(const GraspHandle& a, const GraspHandle& b)
 {
   return a.centroid == b.centroid && a.axis == b.axis && a.normal == b.normal && a.radius == b.radius &&
          a.inner_radius == b.inner_radius && a.length == b.length && a.polyline == b.polyline && a.score == b.score &&
-         a.agreement == b.agreement && a.clearance == b.clearance && sameNumber(a.observed_free, b.observed_free);
+         a.agreement == b.agreement && a.clearance == b.clearance && sameBits(a.observed_free, b.observed_free);
 }
 
 void expectSame(const Handles& a, const Handles& b, const std::string& what)
