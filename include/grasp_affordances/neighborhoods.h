@@ -62,7 +62,8 @@ private:
 };
 
 /// Finds the points of a cloud around a place. Every implementation returns the same points in the same order: those
-/// for which (p - center)^2 <= radius^2 holds in single precision. Safe to use from many threads.
+/// for which (p - center)^2 <= radius^2 holds in single precision, and none around a center that is not finite, as of
+/// another view's point that this one's frame has no number for. Safe to use from many threads.
 class NeighborhoodSearch
 {
 public:
@@ -72,7 +73,7 @@ public:
   virtual void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const = 0;
 
   /// The k measured points nearest to `center`, or all where there are fewer; the result's radius is the distance of
-  /// the last of them.
+  /// the last of them, 0 where there is none.
   virtual void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const = 0;
 
   /// The range image that is searched; null for a cloud without one.

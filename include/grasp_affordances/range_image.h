@@ -64,7 +64,8 @@ public:
   const PinholeIntrinsics& intrinsics() const { return intrinsics_; }
   double margin() const { return margin_; }  ///< pixels, by which points may be off their own
 
-  /// The pixels that a sphere projects to: contains every measured point within the sphere.
+  /// The pixels that a sphere projects to: contains every measured point within the sphere. Empty for a center (m, in
+  /// the range of single precision) that is not finite.
   PixelWindow window(const Eigen::Vector3d& center, double radius) const;
 
   /// Index of the pixel that a point (m) falls on; empty outside the image and behind the sensor.

@@ -43,7 +43,7 @@ public:
   void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const override
   {
     result.clear(center, radius);
-    if (index_.empty()) {
+    if (index_.empty() || !center.allFinite()) {
       return;
     }
     if (crowded_.load(std::memory_order_relaxed)) {
@@ -56,7 +56,7 @@ public:
 
   void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override
   {
-    k = std::min(k, index_.size());
+    k = center.allFinite() ? std::min(k, index_.size()) : 0;
     double radius = kSmallestRadius;
     if (k > 0) {
       static thread_local std::vector<int> found;
@@ -190,7 +190,7 @@ SphereView WindowSearch::gather(const Eigen::Vector3f& center, float radius, boo
 
 void WindowSearch::nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const
 {
-  k = std::min(k, points_);
+  k = center.allFinite() ? std::min(k, points_) : 0;
   // A disc of k pixels on a surface that faces the sensor, and a little more for one that does not.
   double radius = 1.3 * std::sqrt(k / M_PI) * image_.spacing(std::max(1e-3, std::abs(static_cast<double>(center.z()))));
   do {

@@ -161,7 +161,7 @@ PixelWindow RangeImage::window(const Eigen::Vector3d& center, double radius) con
 {
   const int width = static_cast<int>(cloud_->width);
   const int height = static_cast<int>(cloud_->height);
-  if (center.z() <= -radius) {
+  if (center.z() <= -radius || !center.allFinite()) {
     return {0, 0, 0, 0};
   }
   if (!(center.z() > 1.001 * radius)) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -196,6 +197,35 @@ TEST(NeighborhoodSearch, FindsNeighborsOfAnyPlace)
     makeTreeSearch(cloud)->nearest(place, 50, from_tree);
     EXPECT_EQ(indicesOf(from_window), indicesOf(from_tree));
     EXPECT_EQ(from_window.size(), 50U);
+  }
+}
+
+/// As a point of another view that the frame of this one has no number for.
+TEST(NeighborhoodSearch, FindsNothingAroundAPlaceThatIsNotFinite)
+{
+  const Cloud cloud = captureScene("empty_table", 1).cloud;
+  std::string warning;
+  const auto image = RangeImage::create(cloud, warning);
+  ASSERT_TRUE(image) << warning;
+  const auto window = makeWindowSearch(*image, measuredPoints(cloud)), tree = makeTreeSearch(cloud);
+  Neighborhood found;
+  for (const float value : {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
+                            std::numeric_limits<float>::quiet_NaN()}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Eigen::Vector3f place(0.1F, 0.1F, 1.0F);
+      place[axis] = value;
+      const PixelWindow pixels = image->window(place.cast<double>(), 0.1);
+      EXPECT_TRUE(pixels.u_begin == pixels.u_end && pixels.v_begin == pixels.v_end) << place.transpose();
+      for (const auto* search : {window.get(), tree.get()}) {
+        for (const float radius : {0.1F, 1e30F, std::numeric_limits<float>::infinity()}) {
+          search->withinRadius(place, radius, found);
+          EXPECT_EQ(found.size(), 0U) << place.transpose();
+        }
+        search->nearest(place, 50, found);
+        EXPECT_EQ(found.size(), 0U) << place.transpose();
+        EXPECT_EQ(found.radius, 0.0F);
+      }
+    }
   }
 }
 

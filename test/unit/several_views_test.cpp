@@ -335,12 +335,14 @@ TEST(SeveralViews, GoOnWithoutThoseThatMeasuredNothing)
     }
   }
   Pose nowhere = Pose::Identity();
-  nowhere.translation().x() = std::nan("");
   config.neighborhood.kind = NeighborhoodKind::knn;
-  const Localization posed = localizeViews(config, {{&cloud, Pose::Identity()}, {&cloud, nowhere}});
-  EXPECT_EQ(posed.counts, Localizer(config).localize(cloud).counts);
-  ASSERT_EQ(posed.warnings.size(), 1U);
-  EXPECT_EQ(posed.warnings[0], "view 2: its pose is not finite");
+  for (const double far : {std::nan(""), HUGE_VAL, 1e308}) {
+    nowhere.translation() = Eigen::Vector3d(far, far, far);
+    const Localization posed = localizeViews(config, {{&cloud, Pose::Identity()}, {&cloud, nowhere}});
+    EXPECT_EQ(posed.counts, Localizer(config).localize(cloud).counts);
+    ASSERT_EQ(posed.warnings.size(), 1U);
+    EXPECT_EQ(posed.warnings[0], "view 2: its pose is not finite");
+  }
 
   const Localization none = localizeViews(config, {{&nothing, Pose::Identity()}, {&nothing, somePose()}});
   EXPECT_EQ(none.sampled, 0U);
