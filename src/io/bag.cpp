@@ -32,18 +32,25 @@ public:
     skip(4 + 8);     // seq, stamp
     skip(length());  // frame_id
     skip(4 + 4);     // height, width
-    for (std::uint32_t fields = length(); fields > 0; --fields) {
+    const std::uint32_t fields = length();
+    for (std::uint32_t i = 0; i < fields; ++i) {
       skip(length());   // name
       skip(4 + 1 + 4);  // offset, datatype, count
     }
     skip(1 + 4 + 4);  // is_bigendian, point_step, row_step
     skip(length());   // data
     skip(1);          // is_dense
+    if (fields > kMostFields) {
+      throw CloudError("the message has " + std::to_string(fields) + " fields, more than " +
+                       std::to_string(kMostFields));
+    }
     ros::serialization::IStream stream(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
     ros::serialization::deserialize(stream, message);
   }
 
 private:
+  static constexpr std::uint32_t kMostFields = 1000;  // each takes several times the memory that it has in the message
+
   std::uint32_t length()
   {
     const std::size_t at = position_;

@@ -138,24 +138,66 @@ void requireName(const std::string& name, const char* of)
 }
 
 /// roslz4 copies a block into a buffer of the size that the frame's header names, whatever the size of the block.
-void requireSoundLz4(const std::string& frame)
+/// @return bytes that the frame can hold at most
+std::uint64_t requireSoundLz4(const std::string& frame)
 {
   constexpr std::size_t kHeader = 7, kEnd = 8;  // magic number, flags, sizes, check; an empty block, checksum
+  constexpr std::uint64_t kMostPerByte = 255;   // one more byte of a match's length stands for so many
   require(frame.size() >= kHeader + kEnd, "a chunk ends within its LZ4 frame");
   const int size_id = static_cast<unsigned char>(frame[5]) >> 4 & 7;
   const int most = size_id < 4 ? -1 : roslz4_blockSizeFromIndex(size_id);
   require(most > 0, "an LZ4 frame has no block size");
+  std::uint64_t unpacked = 0;
   for (std::size_t at = kHeader;;) {
     require(frame.size() - at >= kEnd, "an LZ4 frame has no end");
     const std::uint32_t size = numberAt<std::uint32_t>(frame, at) & 0x7fffffffU;
     at += 4;
     if (size == 0) {
       require(frame.size() - at == 4, "something follows an LZ4 frame");
-      return;
+      return unpacked;
     }
     require(size <= static_cast<std::uint32_t>(most) && size <= frame.size() - at, "an LZ4 block is too large");
+    unpacked += std::min<std::uint64_t>(static_cast<std::uint32_t>(most), kMostPerByte * size);
     at += size;
   }
+}
+
+void requireUnpacked(bool holds)
+{
+  require(holds, "a chunk does not unpack to what it claims");
+}
+
+std::string unpackLz4(std::string& packed, std::uint32_t size)
+{
+  requireUnpacked(size <= requireSoundLz4(packed));
+  std::string bytes(size, '\0');
+  unsigned int unpacked = size;
+  requireUnpacked(roslz4_buffToBuffDecompress(packed.data(), static_cast<unsigned int>(packed.size()), bytes.data(),
+                                              &unpacked) == ROSLZ4_OK);
+  requireUnpacked(unpacked == size);
+  return bytes;
+}
+
+/// Memory is asked for as there is something to put into it, not as the chunk claims.
+std::string unpackBz2(std::string& packed, std::uint32_t size)
+{
+  constexpr std::size_t kStep = 1U << 20;
+  bz_stream stream{};
+  require(BZ2_bzDecompressInit(&stream, 0, 0) == BZ_OK, "there is no memory to unpack a chunk");
+  const std::unique_ptr<bz_stream, decltype(&BZ2_bzDecompressEnd)> end(&stream, BZ2_bzDecompressEnd);
+  stream.next_in = packed.data();
+  stream.avail_in = static_cast<unsigned int>(packed.size());
+  std::string bytes;
+  int status = BZ_OK;
+  while (status == BZ_OK && stream.avail_out == 0 && bytes.size() < size) {
+    const std::size_t filled = bytes.size();
+    bytes.resize(std::min<std::size_t>(size, filled + std::max(filled, kStep)));
+    stream.next_out = &bytes[filled];
+    stream.avail_out = static_cast<unsigned int>(bytes.size() - filled);
+    status = BZ2_bzDecompress(&stream);
+  }
+  requireUnpacked(status == BZ_STREAM_END && stream.avail_out == 0 && bytes.size() == size);
+  return bytes;
 }
 
 /// The content of a chunk, which refers to the file where that is not compressed.
@@ -169,21 +211,14 @@ Region unpack(const Region& file, const Record& chunk)
               file.copy(begin + at, to, length);
             }};
   }
+  require(compression == rosbag::COMPRESSION_LZ4 || compression == rosbag::COMPRESSION_BZ2,
+          "a chunk is of an unknown compression");
   require(size <= kMostChunkBytes && chunk.size <= kMostChunkBytes, "a compressed chunk claims more than 1 GiB");
   std::string packed = file.read(chunk.data, chunk.size, "a chunk");
-  const std::shared_ptr<char[]> bytes(new char[size]);  // of which only as much is used as there is
-  unsigned int unpacked = size;
-  bool good = false;
-  if (compression == rosbag::COMPRESSION_LZ4) {
-    requireSoundLz4(packed);
-    good = roslz4_buffToBuffDecompress(packed.data(), chunk.size, bytes.get(), &unpacked) == ROSLZ4_OK;
-  } else if (compression == rosbag::COMPRESSION_BZ2) {
-    good = BZ2_bzBuffToBuffDecompress(bytes.get(), &unpacked, packed.data(), chunk.size, 0, 0) == BZ_OK;
-  } else {
-    require(false, "a chunk is of an unknown compression");
-  }
-  require(good && unpacked == size, "a chunk does not unpack to what it claims");
-  return {size, [bytes](std::uint64_t at, void* to, std::size_t length) { std::memcpy(to, bytes.get() + at, length); }};
+  const auto bytes = std::make_shared<const std::string>(
+      compression == rosbag::COMPRESSION_LZ4 ? unpackLz4(packed, size) : unpackBz2(packed, size));
+  return {size,
+          [bytes](std::uint64_t at, void* to, std::size_t length) { std::memcpy(to, bytes->data() + at, length); }};
 }
 
 /// Connections of a bag by number: whether they are of clouds.

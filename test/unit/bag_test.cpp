@@ -5,12 +5,15 @@
 #include <rosbag/bag.h>
 #include <std_msgs/String.h>
 
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <random>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <sys/resource.h>
 
 namespace grasp_affordances
 {
@@ -200,6 +203,14 @@ TEST_F(BagTest, goesOnAfterAMalformedMessage)
   }
 }
 
+/// Of this process, in bytes.
+std::int64_t peakMemory()
+{
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{1024} * usage.ru_maxrss;
+}
+
 /// A bag's bytes, with a number in it changed.
 std::string changed(const std::string& bag, std::size_t at, const std::string& bytes)
 {
@@ -298,6 +309,33 @@ TEST_F(BagTest, refusesChunksThatDoNotUnpack)
     expectRefused(writeFile(changed(good, size, kHuge)), "", "a compressed chunk claims more than 1 GiB");
     expectRefused(writeFile(changed(good, size + 40, "????")), "", "damaged");
   }
+}
+
+/// Compressed, so small a file can hold so much; what it can is bounded before memory is asked for.
+TEST_F(BagTest, asksForNoMemoryThatAChunkOnlyClaims)
+{
+  for (const rosbag::CompressionType compression : {rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    const std::string good = content(writeBag(false, compression));
+    const std::string file = writeFile(changed(good, behind(good, "size="), std::string("\0\0\0\x40", 4)));
+    const std::int64_t before = peakMemory();
+    expectRefused(file, "", "a chunk does not unpack to what it claims");
+    EXPECT_LT(peakMemory() - before, 100'000'000);
+  }
+}
+
+/// A field takes several times the memory that it has in the message.
+TEST_F(BagTest, refusesMessagesOfVeryManyFields)
+{
+  sensor_msgs::PointCloud2 message = makeMessage(1);
+  message.fields.resize(1000, message.fields[0]);
+  sensor_msgs::PointCloud2 more = message;
+  more.fields.push_back(more.fields[0]);
+  {
+    rosbag::Bag bag(path(), rosbag::bagmode::Write);
+    bag.write("/points", ros::Time(1), message);
+    bag.write("/points", ros::Time(2), more);
+  }
+  EXPECT_EQ(read(path()), "1 (the message has 1001 fields, more than 1000) ");
 }
 
 TEST_F(BagTest, refusesOtherBags)
