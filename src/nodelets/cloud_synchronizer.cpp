@@ -19,6 +19,15 @@ constexpr std::uint32_t kQueue = 10;  // clouds per camera
 /// next cloud of each camera before it knew that a set is the best.
 constexpr double kLeastPeriod = 0.015;
 
+/// s; the synchronizer computes with differences of stamps, and roscpp's throw at 2^31 s.
+constexpr std::int64_t kLongestBetween = std::int64_t{1} << 30;
+
+bool areFarApart(const ros::Time& a, const ros::Time& b)
+{
+  const std::int64_t difference = std::int64_t{a.sec} - std::int64_t{b.sec};
+  return difference > kLongestBetween || difference < -kLongestBetween;
+}
+
 template <typename Synchronizer, int input>
 void addTo(Synchronizer& synchronizer, const CloudSynchronizer::Points& cloud)
 {
@@ -42,6 +51,14 @@ CloudSynchronizer::CloudSynchronizer(std::size_t views, double slop, std::functi
 void CloudSynchronizer::add(std::size_t view, const Points& cloud)
 {
   static constexpr auto kAdders = adders<Synchronizer>(std::make_integer_sequence<int, kMostViews>());
+  const ros::Time& stamp = cloud->header.stamp;
+  if (stamp.sec == ros::TIME_MAX.sec) {
+    return;  // it adds to stamps, too, and these are the last
+  }
+  if (first_stamp_ && areFarApart(stamp, *first_stamp_)) {
+    restart();
+  }
+  first_stamp_ = first_stamp_.value_or(stamp);
   kAdders[view](*synchronizer_, cloud);
   if (view == 0) {
     for (std::size_t unused = views_; unused < kMostViews; ++unused) {
@@ -54,6 +71,7 @@ void CloudSynchronizer::restart()
 {
   using P = const Points&;
   using Nothing = const boost::shared_ptr<const message_filters::NullType>&;
+  first_stamp_.reset();
   synchronizer_ = std::make_unique<Synchronizer>(Policy(kQueue));
   synchronizer_->setMaxIntervalDuration(ros::Duration(slop_));
   synchronizer_->setInterMessageLowerBound(ros::Duration(kLeastPeriod));

@@ -2,11 +2,13 @@
 
 #include <message_filters/sync_policies/approximate_time.h>
 #include <message_filters/synchronizer.h>
+#include <ros/time.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace grasp_affordances
@@ -28,7 +30,7 @@ public:
   /// @param take   is handed the sets, from within add()
   CloudSynchronizer(std::size_t views, double slop, std::function<void(const Set&)> take);
 
-  /// A cloud of a camera, which are counted from 0.
+  /// A cloud of a camera, which are counted from 0. One with a stamp decades from the others' has them forgotten.
   void add(std::size_t view, const Points& cloud);
 
   /// Forgets the clouds that wait for others.
@@ -43,6 +45,7 @@ private:
   const double slop_;
   const std::function<void(const Set&)> take_;
   std::unique_ptr<Synchronizer> synchronizer_;
+  std::optional<ros::Time> first_stamp_;  // since it began
 };
 
 }  // namespace grasp_affordances

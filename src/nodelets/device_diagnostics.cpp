@@ -1,6 +1,8 @@
 #include "nodelets/device_diagnostics.h"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/time.h>
 
 namespace grasp_affordances
 {
@@ -30,12 +32,11 @@ const char* deviceStateWord(DeviceState state)
   return words[static_cast<int>(state)];
 }
 
-DeviceDiagnostics::DeviceDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh,
-                                     const std::string& name)
-    : updater_(nh, private_nh, name)
+DeviceDiagnostics::DeviceDiagnostics(ros::NodeHandle nh, const std::string& name, double period)
+    : name_(name.substr(name.find_first_not_of('/')) + ": device"),
+      period_(period),
+      publisher_(nh.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1))
 {
-  updater_.setHardwareID("none");
-  updater_.add("device", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { report(status); });
 }
 
 DeviceDiagnostics::Stream& DeviceDiagnostics::addStream(const std::string& name)
@@ -49,7 +50,7 @@ void DeviceDiagnostics::setDevice(const std::string& uri, const std::string& ser
 {
   uri_ = uri;
   serial_ = serial;
-  updater_.setHardwareID(serial.empty() ? uri : serial);
+  hardware_id_ = serial.empty() ? uri : serial;
 }
 
 bool DeviceDiagnostics::setState(DeviceState state, const std::string& message)
@@ -58,9 +59,28 @@ bool DeviceDiagnostics::setState(DeviceState state, const std::string& message)
   state_ = state;
   message_ = message;
   if (changed) {
-    updater_.force_update();
+    publish();
   }
   return changed;
+}
+
+void DeviceDiagnostics::update()
+{
+  if (Clock::now() - reported_ >= period_) {
+    publish();
+  }
+}
+
+void DeviceDiagnostics::publish()
+{
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  status.name = name_;
+  status.hardware_id = hardware_id_;
+  report(status);
+  diagnostic_msgs::DiagnosticArray message;
+  message.header.stamp = ros::Time::now();
+  message.status.push_back(status);
+  publisher_.publish(message);
 }
 
 void DeviceDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status)

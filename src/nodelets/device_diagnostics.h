@@ -1,7 +1,8 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
+#include <ros/publisher.h>
 
 #include <chrono>
 #include <cstdint>
@@ -24,6 +25,9 @@ enum class DeviceState
 const char* deviceStateWord(DeviceState state);
 
 /// The state of a camera and its streams on /diagnostics. Not safe to use from several threads.
+///
+/// In place of diagnostic_updater::Updater, which reads its period from the parameter server again and again and
+/// throws at one that it cannot compute with, and which falls silent while the ROS clock is set back or stands still.
 class DeviceDiagnostics
 {
 public:
@@ -39,7 +43,8 @@ public:
   };
 
   /// @param name of the node, full: what the name of the status begins with
-  DeviceDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh, const std::string& name);
+  /// @param period s of the wall clock, between messages
+  DeviceDiagnostics(ros::NodeHandle nh, const std::string& name, double period);
 
   /// Valid as long as this object.
   Stream& addStream(const std::string& name);
@@ -52,14 +57,18 @@ public:
   DeviceState state() const { return state_; }
 
   /// Publishes when the period has passed; to be called often.
-  void update() { updater_.update(); }
+  void update();
 
 private:
   using Clock = std::chrono::steady_clock;
 
+  void publish();
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  diagnostic_updater::Updater updater_;
+  const std::string name_;  // of the status
+  const std::chrono::duration<double> period_;
+  ros::Publisher publisher_;
+  std::string hardware_id_ = "none";
   std::deque<Stream> streams_;
   DeviceState state_ = DeviceState::waiting;
   std::string message_ = "not opened yet";

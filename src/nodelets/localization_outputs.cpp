@@ -4,6 +4,7 @@
 
 #include <geometry_msgs/PoseArray.h>
 #include <ros/console.h>
+#include <ros/exception.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <boost/make_shared.hpp>
 
@@ -86,11 +87,17 @@ void LocalizationOutputs::updateSubscriptions()
   if (needed == subscribed_) {
     return;
   }
-  subscribed_ = needed;
-  if (needed) {
-    subscribe_();
-  } else {
+  if (!needed) {
+    subscribed_ = false;
     unsubscribe_();
+    return;
+  }
+  try {
+    subscribe_();
+    subscribed_ = true;
+  } catch (const ros::Exception& error) {  // in a callback of the manager's, which would end with all its nodelets
+    unsubscribe_();
+    ROS_ERROR_STREAM_NAMED(name_, "nothing is localized, for want of input: " << error.what());
   }
 }
 

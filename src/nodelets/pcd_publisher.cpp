@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <exception>
 #include <sstream>
 #include <string>
 
@@ -60,7 +61,7 @@ int main(int argc, char** argv)
   } catch (const grasp_affordances::ParameterError& error) {
     ROS_FATAL_STREAM(error.what());
     return 1;
-  } catch (const grasp_affordances::CloudError& error) {
+  } catch (const std::exception& error) {  // CloudError, or no memory for what the file holds
     ROS_FATAL("%s: %s", file.c_str(), error.what());
     return 1;
   }

@@ -1,11 +1,14 @@
 #include "nodelets/transforms.h"
 
+#include <ros/console.h>
 #include <ros/duration.h>
 #include <ros/init.h>
+#include <tf2/exceptions.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <exception>
 
 namespace grasp_affordances
 {
@@ -18,6 +21,8 @@ constexpr std::chrono::milliseconds kShutdownPoll{50};  // nothing tells of the 
 
 /// s by which the transforms of one frame may arrive out of order: several nodes may publish them. tf2 sorts them.
 constexpr double kDisorder = 0.5;
+
+constexpr double kThrottlePeriod = 5.0;  // s between repetitions of a complaint
 
 /// tf2 knows no leading slash, with which older drivers and bags name their frames.
 std::string frameName(const std::string& name)
@@ -74,7 +79,13 @@ Eigen::Isometry3d Transforms::lookup(const std::string& target_frame, const std:
     }
     changed_.wait_until(lock, std::min<Deadline>(deadline, now + kShutdownPoll));
   }
-  return isometry(buffer_.lookupTransform(target, source, stamp));
+  try {
+    return isometry(buffer_.lookupTransform(target, source, stamp));
+  } catch (const tf2::TransformException&) {
+    throw;
+  } catch (const std::exception& error) {  // of roscpp's, about a stamp so far from those known that none is between
+    throw tf2::ExtrapolationException(error.what());
+  }
 }
 
 void Transforms::restart()
@@ -96,7 +107,14 @@ void Transforms::close()
 void Transforms::receive(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool fixed)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  // tf2 adds that to stamps, and roscpp's throw where they end.
+  const ros::Time latest = ros::TIME_MAX - buffer_.getCacheLength();
   for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
+    if (transform.header.stamp > latest) {
+      ROS_WARN_STREAM_THROTTLE(kThrottlePeriod, "a transform was ignored: its stamp, "
+                                                    << transform.header.stamp << " s, is too large to compute with");
+      continue;
+    }
     if (!fixed && wentBack(transform)) {
       forget();
       restarted_ = true;

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -75,7 +76,7 @@ private:
   Outcome serve();
   Outcome serveUntilEnd();
   bool goOnAfter(Outcome outcome);
-  void complain(const DeviceError& error);
+  void complain(const std::exception& error);
   bool readFrame();                               // waits a little; returns whether there was one
   std::chrono::duration<double> silence() const;  // of the stream that owes a frame for longest
   bool pause(std::chrono::milliseconds time);     // returns whether the nodelet goes on
@@ -119,7 +120,7 @@ void XtionNodelet::advertise()
   const std::string parent = ros::names::parentNamespace(getName());
   const ros::NodeHandle depth_nh(getNodeHandle(), ros::names::append(parent, "depth"));
   const ros::NodeHandle rgb_nh(getNodeHandle(), ros::names::append(parent, "rgb"));
-  diagnostics_ = std::make_unique<DeviceDiagnostics>(getNodeHandle(), getPrivateNodeHandle(), getName());
+  diagnostics_ = std::make_unique<DeviceDiagnostics>(getNodeHandle(), getName(), parameters_.diagnostic_period);
   depth_calibration_ = std::make_unique<CameraCalibration>(depth_nh, "depth", parameters_.depth_camera_info_url);
   rgb_calibration_ = std::make_unique<CameraCalibration>(rgb_nh, "rgb", parameters_.rgb_camera_info_url);
 
@@ -159,7 +160,7 @@ void XtionNodelet::run()
       const Outcome outcome = serve();
       device_.reset();
       goes_on = goOnAfter(outcome);
-    } catch (const DeviceError& error) {
+    } catch (const std::exception& error) {  // DeviceError, or no memory for a frame
       device_.reset();
       complain(error);
       goes_on = pause(kRetry);
@@ -273,7 +274,7 @@ bool XtionNodelet::goOnAfter(Outcome outcome)
   return pause(std::chrono::milliseconds(0));
 }
 
-void XtionNodelet::complain(const DeviceError& error)
+void XtionNodelet::complain(const std::exception& error)
 {
   const bool not_found = dynamic_cast<const DeviceNotFound*>(&error) != nullptr;
   if (!(not_found && diagnostics_->state() == DeviceState::disconnected)) {  // which was said

@@ -29,7 +29,7 @@ struct XtionParameters
   bool publish_tf = true;               ///< the transforms between those frames
   std::string depth_camera_info_url;    ///< of a calibration, see camera_info_manager; empty: its default place
   std::string rgb_camera_info_url;      ///< likewise
-  double diagnostic_period = 1.0;       ///< s, 0.1 to 60, between messages on /diagnostics (read by diagnostic_updater)
+  double diagnostic_period = 1.0;       ///< s, 0.1 to 60, between messages on /diagnostics
 
   DepthCorrection correction() const { return {z_scaling, z_offset_mm}; }
 };

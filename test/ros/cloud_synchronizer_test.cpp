@@ -100,6 +100,27 @@ TEST(CloudSynchronizer, ASilentCameraMakesNoSet)
   EXPECT_TRUE(cameras.sets.empty());
 }
 
+/// With some of them roscpp's times cannot be computed.
+TEST(CloudSynchronizer, TakesStampsOfAnyKind)
+{
+  const double times[] = {kStart, 0.0, 1.7e9, 2147483647.0, 2147483648.5, 4294967290.0, 4294967295.0, 4294967295.999};
+  for (const double first : times) {
+    for (const double second : times) {
+      Cameras cameras(3);
+      for (const std::size_t view : {0, 1, 1, 2, 0}) {
+        cameras.add(view, first);
+        cameras.add(view, second);
+      }
+      cameras.restart();
+      const std::size_t before = cameras.sets.size();
+      for (int i = 0; i < 3; ++i) {
+        cameras.deliver(1.7e9 + 10.0 + i * kPeriod);
+      }
+      EXPECT_GT(cameras.sets.size(), before) << first << ", " << second;
+    }
+  }
+}
+
 TEST(CloudSynchronizer, ForgetsWhatWaits)
 {
   Cameras cameras(2);

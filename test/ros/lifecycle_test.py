@@ -110,6 +110,19 @@ class Lifecycle(unittest.TestCase):
             with loader():
                 self.check_answers()
 
+    def test_an_input_that_cannot_be_subscribed_to_ends_no_other_nodelet(self):
+        with publisher(scene('table'), rate=10), manager() as host:
+            # One topic for clouds and for the camera's intrinsics.
+            with loader('points:=camera_info') as load:
+                listener = Listener('localizer/statistics', LocalizationStatistics)
+                wait_until(lambda: 'for want of input' in host.output(), 'complaint')
+                listener.close()
+                self.assertEqual(load.interrupt(), 0, load.output())
+            wait_until(lambda: not advertised(), 'unloading')
+            with loader():
+                self.check_answers()
+            self.assertEqual(host.interrupt(), 0, host.output())
+
     def test_publisher_refuses_a_file_that_is_not_there(self):
         with publisher('/nowhere/cloud.pcd') as node:
             self.assertEqual(node.wait(15), 1)

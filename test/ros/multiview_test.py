@@ -154,6 +154,18 @@ class Multiview(unittest.TestCase):
             stamp = self.publish(range(2), start - rospy.Duration(100))
             self.assertEqual(node.statistics.wait().header.stamp, stamp)
 
+    def test_stamps_at_the_end_of_time(self):
+        with MultiCamera(2, '_target_frame:=room') as node:
+            self.connect(2)
+            now = rospy.Time.now()
+            for seconds in (2 ** 32 - 1, 2 ** 31, 0):
+                self.publish((0,), now)
+                self.publish((1,), rospy.Time(seconds))
+            for seconds in (1, 2):  # of the first set one camera's time goes back: it may be forgotten
+                stamp = self.publish(range(2), now + rospy.Duration(seconds))
+            node.statistics.wait(lambda m: m.header.stamp == stamp)
+            self.assertEqual(node.interrupt(), 0, node.output())
+
     def test_a_silent_camera_is_named(self):
         with MultiCamera(3, '_target_frame:=room') as node:
             self.connect(3)

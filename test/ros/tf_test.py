@@ -212,6 +212,28 @@ class Tf(unittest.TestCase):
             self.publish(stamp)
             self.assertEqual(localizer.answer('statistics', stamp).clouds_without_transform, 0)
 
+    def test_stamps_at_the_end_of_time(self):
+        end = rospy.Time(2 ** 32 - 1, 999999999)
+        with Localizer('localizer', '_target_frame:=map', '_transform_timeout:=0.05') as localizer:
+            self.connect()
+            # Also of a frame that is not known yet, in one message with another one, and as a fixed transform.
+            start = rospy.Time.now()
+            self.moving.publish([transform('map', 'room', (0, 0, 0), stamp=end),
+                                 transform('map', 'room', (0, 0, 0), stamp=start),
+                                 transform('map', 'elsewhere', (0, 0, 0), stamp=end)])
+            wait_until(lambda: 'is too large to compute with' in localizer.output(), 'complaint')
+            self.assertEqual(localizer.answer('statistics', self.publish(start)).clouds_without_transform, 0)
+            self.publish(end)
+            wait_until(lambda: 'want of a transform' in localizer.output(), 'complaint')
+            # With the next cloud time goes back, and transforms of before are forgotten.
+            self.publish(start + rospy.Duration(1))
+            time.sleep(0.2)  # nothing tells
+            last = start + rospy.Duration(2)
+            self.moving.publish([transform('map', 'room', (0, 0, 0), stamp=last)])
+            time.sleep(0.1)
+            self.assertEqual(localizer.answer('statistics', self.publish(last)).clouds_without_transform, 2)
+            self.assertEqual(localizer.interrupt(), 0, localizer.output())
+
     def test_a_rotation_of_few_digits(self):
         with Localizer('localizer', '_target_frame:=map') as localizer:
             self.connect()
