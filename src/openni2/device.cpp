@@ -134,13 +134,13 @@ void Device::openStream(Sensor sensor, const FrameMode& mode)
   openni::VideoStream& video = opened.video;
   check(video.create(device_, sensorType(sensor)), name + ": no stream");
   if (!isRecording()) {
-    check(video.setVideoMode(supportedVideoMode(name, videoModes(video), mode)),
+    check(video.setVideoMode(supportedVideoMode(name, sensorType(sensor), videoModes(video), mode)),
           name + ": mode " + frameModeWord(mode));
     video.setMirroringEnabled(false);  // what a device does not know is not on
   }
   const openni::VideoMode actual = video.getVideoMode();
   const FrameMode actual_mode{actual.getResolutionX(), actual.getResolutionY(), actual.getFps()};
-  supportedVideoMode(name, {actual}, actual_mode);  // refuses what cannot be read
+  supportedVideoMode(name, sensorType(sensor), {actual}, actual_mode);  // refuses what cannot be read
   opened.layout = {actual_mode.width, actual_mode.height, actual.getPixelFormat(), video.getMirroringEnabled()};
   opened.field_of_view = reportedFieldOfView(video);
 }

@@ -33,7 +33,12 @@ std::shared_ptr<OpenNi2Runtime> OpenNi2Runtime::get()
 
 OpenNi2Runtime::OpenNi2Runtime()
 {
-  check(openni::OpenNI::initialize(), "OpenNI2 does not start");
+  try {
+    check(openni::OpenNI::initialize(), "OpenNI2 does not start");
+  } catch (const DeviceError&) {
+    openni::OpenNI::shutdown();  // this attempt was counted, and the next one would succeed without any driver
+    throw;
+  }
 }
 
 OpenNi2Runtime::~OpenNi2Runtime()

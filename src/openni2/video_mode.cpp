@@ -3,7 +3,6 @@
 #include "openni2/device_error.h"
 
 #include <algorithm>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <stdexcept>
@@ -13,13 +12,13 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr openni::PixelFormat kReadable[] = {openni::PIXEL_FORMAT_DEPTH_1_MM, openni::PIXEL_FORMAT_DEPTH_100_UM,
-                                             openni::PIXEL_FORMAT_RGB888};  // the best first
-
-/// The smaller, the better; std::size(kReadable) where the format is not read.
-std::size_t formatRank(const openni::VideoMode& mode)
+/// The pixel formats of a sensor that are read, the best first.
+std::vector<openni::PixelFormat> readableFormats(openni::SensorType type)
 {
-  return std::find(std::begin(kReadable), std::end(kReadable), mode.getPixelFormat()) - std::begin(kReadable);
+  if (type == openni::SENSOR_DEPTH) {
+    return {openni::PIXEL_FORMAT_DEPTH_1_MM, openni::PIXEL_FORMAT_DEPTH_100_UM};
+  }
+  return {openni::PIXEL_FORMAT_RGB888};
 }
 
 }  // namespace
@@ -44,17 +43,21 @@ std::string frameModeWord(const openni::VideoMode& mode)
   return frameModeWord({mode.getResolutionX(), mode.getResolutionY(), mode.getFps()});
 }
 
-const openni::VideoMode& supportedVideoMode(const std::string& sensor, const std::vector<openni::VideoMode>& modes,
-                                            const FrameMode& wanted)
+const openni::VideoMode& supportedVideoMode(const std::string& sensor, openni::SensorType type,
+                                            const std::vector<openni::VideoMode>& modes, const FrameMode& wanted)
 {
+  const std::vector<openni::PixelFormat> formats = readableFormats(type);
+  const auto rank = [&](const openni::VideoMode& mode) {  // the smaller, the better
+    return std::find(formats.begin(), formats.end(), mode.getPixelFormat());
+  };
   const openni::VideoMode* best = nullptr;
   std::set<std::string> readable;
   for (const openni::VideoMode& mode : modes) {
-    if (formatRank(mode) == std::size(kReadable)) {
+    if (rank(mode) == formats.end()) {
       continue;
     }
     readable.insert(frameModeWord(mode));
-    if (frameModeWord(mode) == frameModeWord(wanted) && (best == nullptr || formatRank(mode) < formatRank(*best))) {
+    if (frameModeWord(mode) == frameModeWord(wanted) && (best == nullptr || rank(mode) < rank(*best))) {
       best = &mode;
     }
   }

@@ -24,9 +24,9 @@ std::string frameModeWord(const FrameMode& mode);
 std::string frameModeWord(const openni::VideoMode& mode);
 
 /// The one of a sensor's modes that has the wanted size and rate, and a pixel format that this package reads: depth in
-/// millimetres, else in tenths of them; color as RGB888.
+/// millimetres, else in tenths of them; color as RGB888. A recording may have one sensor's in the other's stream.
 /// @throw DeviceError, which begins with `sensor`, with a list of the modes that could have been asked for.
-const openni::VideoMode& supportedVideoMode(const std::string& sensor, const std::vector<openni::VideoMode>& modes,
-                                            const FrameMode& wanted);
+const openni::VideoMode& supportedVideoMode(const std::string& sensor, openni::SensorType type,
+                                            const std::vector<openni::VideoMode>& modes, const FrameMode& wanted);
 
 }  // namespace grasp_affordances

@@ -3,6 +3,7 @@
 ~vanishings: how often a device is pulled out in the middle of a frame."""
 
 import math
+import os
 import unittest
 
 import rospy
@@ -77,6 +78,34 @@ class SensorFaults(unittest.TestCase):
             diagnostics.wait('connected')
             images.close()
             self.check_end(driver)
+        diagnostics.close()
+
+    def test_a_runtime_without_drivers_is_told_from_one_without_devices(self):
+        diagnostics = Diagnostics('driverless')
+        with VirtualDevices(device()) as devices:
+            os.symlink(os.path.join(openni2_path(), 'libOpenNI2.so.0'), os.path.join(devices.folder, 'libOpenNI2.so.0'))
+            environment = dict(devices.environment, LD_LIBRARY_PATH=devices.folder)
+            with devices.driver('driverless', environment=environment) as driver:
+                # Also after attempts enough.
+                _, status = diagnostics.wait('waiting', since=rospy.Time.now() + rospy.Duration(3))
+                self.assertIn('OpenNI2 does not start', status.message)
+                self.assertEqual(driver.output().count('OpenNI2 does not start'), 1, driver.output())
+                self.check_end(driver)
+        diagnostics.close()
+
+    def test_parameters_that_are_set_later_change_nothing(self):
+        diagnostics = Diagnostics('steady')
+        with VirtualDevices(device()) as devices, devices.driver('steady') as driver:
+            images = Listener('steady/depth/image_raw', Image)
+            images.wait()
+            for period in (1e10, -1e10, 'often'):
+                rospy.set_param('steady/driver/diagnostic_period', period)
+                since = rospy.Time.now() + rospy.Duration(1.5)
+                diagnostics.wait('connected', since=since)
+                images.wait(lambda image: image.header.stamp > since)
+            images.close()
+            self.check_end(driver)
+        rospy.delete_param('steady')
         diagnostics.close()
 
     def test_stalled(self):

@@ -39,10 +39,10 @@ class VirtualDevices:
             yaml.safe_dump(list(devices), file)
         os.rename(self._list + '.new', self._list)
 
-    def driver(self, name, *parameters):
+    def driver(self, name, *parameters, environment=None):
         """A driver in a process of its own, its topics in the namespace of that name and its frames named after it."""
         return Process('grasp_affordances', 'xtion_node', '__ns:=' + name, '__name:=driver', '_camera:=' + name,
-                       *parameters, environment=self.environment)
+                       *parameters, environment=environment or self.environment)
 
     def launch(self, file, *arguments):
         return Launch(file, *arguments, environment=self.environment)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grasp_affordances
@@ -100,8 +101,8 @@ TEST(FrameMode, TheBestPixelFormatIsChosen)
                                                 videoMode(640, 480, 30, openni::PIXEL_FORMAT_DEPTH_100_UM),
                                                 videoMode(640, 480, 30, openni::PIXEL_FORMAT_DEPTH_1_MM),
                                                 videoMode(320, 240, 60, openni::PIXEL_FORMAT_DEPTH_100_UM)};
-  EXPECT_EQ(&supportedVideoMode("depth", modes, {640, 480, 30}), &modes[2]);
-  EXPECT_EQ(&supportedVideoMode("depth", modes, {320, 240, 60}), &modes[3]);
+  EXPECT_EQ(&supportedVideoMode("depth", openni::SENSOR_DEPTH, modes, {640, 480, 30}), &modes[2]);
+  EXPECT_EQ(&supportedVideoMode("depth", openni::SENSOR_DEPTH, modes, {320, 240, 60}), &modes[3]);
 }
 
 TEST(FrameMode, RefusalListsWhatCouldHaveBeenAskedFor)
@@ -110,10 +111,24 @@ TEST(FrameMode, RefusalListsWhatCouldHaveBeenAskedFor)
       videoMode(640, 480, 30, openni::PIXEL_FORMAT_RGB888), videoMode(640, 480, 30, openni::PIXEL_FORMAT_YUV422),
       videoMode(1280, 1024, 30, openni::PIXEL_FORMAT_GRAY8), videoMode(320, 240, 30, openni::PIXEL_FORMAT_RGB888)};
   try {
-    supportedVideoMode("color", modes, {1280, 1024, 30});
+    supportedVideoMode("color", openni::SENSOR_COLOR, modes, {1280, 1024, 30});
     FAIL();
   } catch (const DeviceError& error) {
     EXPECT_STREQ(error.what(), "color: no mode 1280x1024@30 among 320x240@30 640x480@30");
+  }
+}
+
+/// As a recording may hold it: pixels of two bytes, of which three would be read.
+TEST(FrameMode, AFormatOfTheOtherSensorIsNotRead)
+{
+  const FrameMode wanted{640, 480, 30};
+  const std::pair<openni::SensorType, openni::PixelFormat> wrong[] = {
+      {openni::SENSOR_COLOR, openni::PIXEL_FORMAT_DEPTH_1_MM},
+      {openni::SENSOR_COLOR, openni::PIXEL_FORMAT_DEPTH_100_UM},
+      {openni::SENSOR_DEPTH, openni::PIXEL_FORMAT_RGB888}};
+  for (const auto& [type, format] : wrong) {
+    const std::vector<openni::VideoMode> modes = {videoMode(640, 480, 30, format)};
+    EXPECT_THROW(supportedVideoMode("stream", type, modes, wanted), DeviceError) << type << ", " << format;
   }
 }
 
