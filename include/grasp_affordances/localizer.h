@@ -61,7 +61,7 @@ public:
   /// @throw ParameterError for a value outside its range; nothing has changed then.
   void configure(const Config& config);
 
-  /// Lets localize() end early: it throws Cancelled soon after this is true, and its result is then unspecified. The
+  /// Lets localize() end early: it throws Cancelled soon after this was true, and its result is then unspecified. The
   /// function is called from several threads, between pieces of work of some ms, and must not throw. The one piece that
   /// takes longer, for millions of points, is the preparation of a cloud, with the tree of an unorganized one.
   void cancelWhen(std::function<bool()> wanted);

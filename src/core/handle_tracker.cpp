@@ -82,7 +82,7 @@ private:
       }
       const std::vector<const GraspHandle*> pieces = takePieces(track, found, shapes, stamp, explained);
       track.handle.update(found[*matches[i]], pieces, stamp, config_.smoothing_time);
-      track.reported |= track.handle.handle().hits >= static_cast<std::uint32_t>(config_.min_hits);
+      track.reported |= report_at_once || track.handle.handle().hits >= static_cast<std::uint32_t>(config_.min_hits);
     }
     forget();
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -117,7 +117,7 @@ void Localizer::localize(const Cloud& cloud, Localization& result, const Eigen::
 
 void Localizer::cancelWhen(std::function<bool()> wanted)
 {
-  implementation_->cancellation = Cancellation(std::move(wanted));
+  implementation_->cancellation.askInstead(std::move(wanted));
 }
 
 /// AffordanceFind (Algorithm 1), and what becomes of its shells.
@@ -131,6 +131,7 @@ void Localizer::localize(const std::vector<PosedCloud>& views, Localization& res
   result.counts.fill(0);
   result.sampled = 0;
   result.milliseconds = StageTimes();
+  own.cancellation.begin();
   own.cancellation.check();
   own.views.update(views, own.config, T_workspace_common, *own.team);
   result.points = own.views.measured;

@@ -54,7 +54,8 @@ double ViewAgreement::disagreement(const RangeImage& first, const RangeImage& se
   const Fit far = fit(T_first_second, kCoarsestGate), near = fit(T_first_second, kNearGate);
   const Fit& better = far.support > kClearlyMore * near.support ? far : near;
   const double needed = kMinSupport * static_cast<double>(first_.samples().size() + second_.samples().size());
-  return better.support < needed ? std::numeric_limits<double>::quiet_NaN() : better.displacement;
+  const bool found = better.support > 0.0 && better.support >= needed;
+  return found ? better.displacement : std::numeric_limits<double>::quiet_NaN();
 }
 
 ViewAgreement::Fit ViewAgreement::fit(const Eigen::Isometry3d& T_first_second, double gate)

@@ -42,6 +42,27 @@ TEST(Cancellation, IsNeverWantedWhereNobodyCan)
   EXPECT_THROW(Cancellation([] { return true; }).check(), Cancelled);
 }
 
+/// Samples that were left out because of it would else pass for examined.
+TEST(Cancellation, IsHeardAlsoWhereItIsWantedForAMomentOnly)
+{
+  constexpr int kSteps = 20;
+  const Cloud& cloud = table();
+  Config config;
+  config.threads = 1;
+  Localizer localizer(config);
+  int calls = 0, chosen = 0;
+  localizer.cancelWhen([&] { return ++calls == chosen; });
+  const Localization expected = localizer.localize(cloud);
+  const int all = calls;
+  for (int step = 0; step <= kSteps; ++step) {
+    calls = 0;
+    chosen = 1 + (all - 1) * step / kSteps;
+    EXPECT_THROW(localizer.localize(cloud), Cancelled) << chosen << " of " << all;
+  }
+  chosen = 0;
+  EXPECT_EQ(localizer.localize(cloud).counts, expected.counts);
+}
+
 /// Wherever it is wanted. What comes after it knows nothing of it.
 TEST(Cancellation, EndsALocalizationInEveryStageAndLeavesNoTrace)
 {

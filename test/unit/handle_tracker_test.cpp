@@ -496,6 +496,16 @@ TEST(HandleTracker, AfterALongGapWhatIsWhereItWasKeepsItsIdAndTheRestIsReportedA
   EXPECT_EQ(ids(tracker.update({kPole}, 200.0)), Ids{2});
 }
 
+TEST(HandleTracker, AfterALongGapWhatWasFoundTooSeldomIsReportedAtOnceToo)
+{
+  TrackingConfig config;
+  config.min_hits = 3;
+  HandleTracker tracker(config);
+  tracker.update({kBar}, 0.0);
+  EXPECT_EQ(ids(tracker.update({kBar, kPole}, 0.1)), Ids{1});
+  EXPECT_EQ(ids(tracker.update({kBar, kPole}, 5.0)), (Ids{1, 2}));
+}
+
 TEST(HandleTracker, CloudsWithTheSameStampAreAveraged)
 {
   HandleTracker tracker;

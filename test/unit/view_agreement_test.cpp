@@ -9,6 +9,8 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -28,6 +30,21 @@ XtionModel exactModel()
   XtionModel model;
   model.exact = true;
   return model;
+}
+
+/// A wall that faces the camera, at a depth (m).
+Cloud wall(float depth)
+{
+  const PinholeIntrinsics camera = XtionModel().intrinsics;
+  Cloud cloud;
+  cloud.reset(640, 480);
+  for (std::uint32_t v = 0; v < cloud.height; ++v) {
+    for (std::uint32_t u = 0; u < cloud.width; ++u) {
+      cloud.set(std::size_t{v} * cloud.width + u, static_cast<float>((u - camera.cx) / camera.fx) * depth,
+                static_cast<float>((v - camera.cy) / camera.fy) * depth, depth);
+    }
+  }
+  return cloud;
 }
 
 /// One scene by two cameras, and their true relative pose.
@@ -133,6 +150,17 @@ TEST(ViewAgreementTest, isNotANumberForViewsWithNothingInCommon)
   EXPECT_TRUE(std::isnan(views.disagreement(at(10, 0, 0))));
   EXPECT_TRUE(std::isnan(views.disagreement(turned(kPi, Eigen::Vector3d::UnitX())))) << "seen from opposite sides";
   EXPECT_TRUE(std::isnan(views.disagreement(at(std::numeric_limits<double>::quiet_NaN(), 0, 0))));
+}
+
+/// As of things beyond the range in which elements of surfaces are compared.
+TEST(ViewAgreementTest, isNotANumberForViewsWithoutASurface)
+{
+  const Cloud far = wall(6.0F);
+  std::string warning;
+  const auto image = RangeImage::create(far, warning);
+  ASSERT_TRUE(image) << warning;
+  ViewAgreement agreement;
+  EXPECT_TRUE(std::isnan(agreement.disagreement(*image, *image, Eigen::Isometry3d::Identity())));
 }
 
 TEST(ViewAgreementTest, dependsOnTheViewsAlone)
