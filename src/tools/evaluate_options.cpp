@@ -5,6 +5,7 @@
 #include "simulation/paper_scenes.h"
 #include "simulation/placement.h"
 #include "simulation/scene_library.h"
+#include "tools/number_range.h"
 
 #include <CLI/CLI.hpp>
 
@@ -211,7 +212,7 @@ void addOptions(CLI::App& app, Arguments& arguments)
          "evaluates with the first view, the first two, and so on (default 0)")
       ->type_name("DEG,..")
       ->delimiter(',')
-      ->check(CLI::Range(-180.0, 180.0));
+      ->check(numberRange(-180.0, 180.0));
   app.add_option("--labels", arguments.labels, "evaluate recorded clouds, too: JSON file, with the clouds beside it")
       ->type_name("FILE");
   app.add_option("--runs", arguments.runs, "per frame; run r samples with the seed r (default 1)")

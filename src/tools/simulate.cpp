@@ -5,6 +5,7 @@
 #include "simulation/placement.h"
 #include "simulation/scene_library.h"
 #include "simulation/sensor.h"
+#include "tools/number_range.h"
 #include "tools/object_list.h"
 
 #include <pcl/console/print.h>
@@ -88,6 +89,14 @@ void listScenes()
     std::cout << scene.name << ": " << scene.description << '\n';
 }
 
+bool standardOutputWritten()
+{
+  if (std::cout.flush())
+    return true;
+  std::cerr << "simulate: cannot write to stdout\n";
+  return false;
+}
+
 int simulateMain(int argc, char** argv)
 {
   std::string scene, out, depth, objects;
@@ -112,13 +121,13 @@ int simulateMain(int argc, char** argv)
   app.add_option("--turn", turn,
                  "degrees: turns the camera about the vertical through the point that it looks at; counter-clockwise "
                  "as seen from above")
-      ->check(CLI::Range(-180.0, 180.0))
+      ->check(ga::numberRange(-180.0, 180.0))
       ->capture_default_str();
   app.add_option("--noise-seed", noise_seed, "added to the seed for the noise: cameras that see one scene differ in it")
       ->check(CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1))
       ->capture_default_str();
   app.add_option("--capture-radius", definition.capture_radius, "of the hand that the labels hold for, m")
-      ->check(CLI::Range(0.002, 0.5))
+      ->check(ga::numberRange(0.002, 0.5))
       ->capture_default_str();
   app.add_option("--out", out,
                  "PCD file to write (fields x y z label, compressed; VIEWPOINT: the camera's pose in the scene)");
@@ -136,7 +145,7 @@ int simulateMain(int argc, char** argv)
 
   if (list) {
     listScenes();
-    return 0;
+    return standardOutputWritten() ? 0 : 1;
   }
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // failures are reported by written()
   ga::View view;
@@ -159,7 +168,7 @@ int simulateMain(int argc, char** argv)
   std::cout << scene << ", seed " << seed << ": " << measured << " of " << frame.cloud.size() << " points measured, "
             << truth.affordances.size() << " affordances\n"
             << ga::affordanceTable(truth);
-  return good ? 0 : 1;
+  return good && standardOutputWritten() ? 0 : 1;
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ TEST_F(EvaluateTest, UsageThatMakesNoSenseIsRefused)
   expectFailure("--capture-radius -1", 2, "hand/capture_radius");
   expectFailure("--config absent.yaml", 2, "absent.yaml");
   expectFailure("--turn 0,200", 2, "--turn");
+  expectFailure("--turn 0,nan", 2, "--turn");
   expectFailure("--turn 90,0,90", 2, "twice");
   expectFailure("--turn 0,90 --labels labels.json", 2, "--turn");
   expectFailure("--samples 100,200,100", 2, "twice");
@@ -65,6 +66,12 @@ TEST_F(EvaluateTest, UnreadableLabelsAndUnwritableFolderAreFailures)
   expectFailure("--labels absent.json", 1, "absent.json");
   std::ofstream(path("file")) << "not a folder";
   expectFailure("--scenes empty_table --seeds 1 --out file/below", 1, "file/below");
+}
+
+TEST_F(EvaluateTest, SaysWhenStdoutIsFull)
+{
+  EXPECT_EQ(run("(" EVALUATE " --scenes empty_table --seeds 1 --estimators pca --samples 100 > /dev/full)"), 1);
+  EXPECT_NE(content("stderr").find("cannot write to stdout"), std::string::npos);
 }
 
 TEST_F(EvaluateTest, WritesTheSameTablesWithAnyNumberOfThreads)

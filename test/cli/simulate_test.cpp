@@ -118,9 +118,18 @@ TEST_F(SimulateTest, RefusesBadUsage)
 {
   for (const char* arguments : {"", "--scene table", "--scene tables --out a.pcd",
                                 "--scene table --out a.pcd --seed -1", "--scene table --out a.pcd --capture-radius 0",
-                                "--scene table --out a.pcd --turn 181", "--scene table --list"}) {
+                                "--scene table --out a.pcd --turn 181", "--scene table --out a.pcd --turn nan",
+                                "--scene table --out a.pcd --capture-radius nan", "--scene table --list"}) {
     EXPECT_EQ(simulate(arguments), 2) << arguments;
     EXPECT_FALSE(content("stderr").empty()) << arguments;
+  }
+}
+
+TEST_F(SimulateTest, SaysWhenStdoutIsFull)
+{
+  for (const char* arguments : {"--list", "--scene empty_table --out cloud.pcd"}) {
+    EXPECT_EQ(run("(" SIMULATE " " + std::string(arguments) + " > /dev/full)"), 1);
+    EXPECT_NE(content("stderr").find("cannot write to stdout"), std::string::npos);
   }
 }
 
