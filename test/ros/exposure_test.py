@@ -138,6 +138,12 @@ class Exposure(unittest.TestCase):
         for one in publishers.values():
             one.unregister()
 
+    def written(self):
+        """Files in the home folder, without those of ROS."""
+        names = {os.path.relpath(os.path.join(folder, name), self.home)
+                 for folder, _, names in os.walk(self.home) for name in names}
+        return {name for name in names if not name.startswith(('log/', 'rospack_cache'))}
+
     def untouched(self):
         self.assertEqual(self.watch.events(), [])
         self.assertFalse(glob.glob(os.path.join(self.bait, 'new*')))
@@ -163,17 +169,27 @@ class Exposure(unittest.TestCase):
 
     def test_driver_writes_calibrations_where_it_was_started_to(self):
         """set_camera_info keeps a calibration. Where, nobody who calls it has a say in."""
+        if rospy.has_param('alone'):
+            rospy.delete_param('alone')
         with VirtualDevices(device(frames=1)) as devices:
             devices.environment.update(HOME=self.home, ROS_HOME=self.home)
             with devices.driver('alone', '_color_mode:=off'):
                 self.call_all('/alone/driver')
                 self.untouched()
-        written = {os.path.relpath(os.path.join(folder, name), self.home)
-                   for folder, _, names in os.walk(self.home) for name in names}
-        written = {name for name in written if not name.startswith(('log/', 'rospack_cache'))}  # of ROS
+        written = self.written()
         self.assertTrue(written)
         for name in written:
             self.assertRegex(name, r'^camera_info/(depth|rgb)\w*\.yaml$')
+
+    def test_driver_writes_calibrations_into_the_files_that_it_was_started_with(self):
+        urls = ['_%s_camera_info_url:=file://%s' % (name, os.path.join(self.home, 'mine', name + '.yaml'))
+                for name in ('depth', 'rgb')]
+        with VirtualDevices(device(frames=1)) as devices:
+            devices.environment.update(HOME=self.home, ROS_HOME=self.home)
+            with devices.driver('alone', '_color_mode:=off', *urls):
+                self.call_all('/alone/driver')
+                self.untouched()
+        self.assertEqual(self.written(), {'mine/depth.yaml', 'mine/rgb.yaml'})
 
 
 if __name__ == '__main__':
