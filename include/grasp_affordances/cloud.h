@@ -34,8 +34,8 @@ inline float squaredLength(float x, float y, float z)
 /// coordinates, zeros, and coordinates that overflow are "not measured". Those hold NaN in all three arrays.
 struct Cloud
 {
-  std::uint32_t width = 0;   ///< columns; the number of points where the cloud is not organized
-  std::uint32_t height = 0;  ///< rows; at most 1 where the cloud is not organized
+  std::uint32_t width = 0;   ///< columns
+  std::uint32_t height = 0;  ///< rows; width or height is at most 1 where the cloud is not organized
   std::vector<float> x, y, z;
 
   /// Where the sensor stood, in the cloud's frame. Used only where the cloud has no pixels that reproject.
@@ -78,7 +78,7 @@ struct Cloud
 struct PosedCloud
 {
   const Cloud* cloud = nullptr;  ///< in a frame of its own: an organized one in its optical frame
-  Eigen::Isometry3d T_common_cloud = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_common_cloud = Eigen::Isometry3d::Identity();  ///< in the range of single precision
 };
 
 }  // namespace grasp_affordances

@@ -93,7 +93,8 @@ struct ShellConfig
   bool require_observed_gap = true;  ///< require that the sensor saw through a share of the gap
   double min_observed_free = 0.25;   ///< that share
   double min_coverage = 0.7;         ///< share of the silhouette that shows surface inside the shell; 0: not judged
-  bool scale_with_density = true;  ///< thresholds that count points follow the density of points at the sample's range
+  bool scale_with_density = true;  ///< thresholds that count points follow the density of points at the sample's range,
+                                   ///< in its own view, and are at least 2
   double reference_spacing =
       0.0015;  ///< m between neighboring pixels at the range where those thresholds hold as given
 };

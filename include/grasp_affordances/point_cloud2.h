@@ -16,8 +16,8 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// Points of the largest cloud that is read, 4096 x 4096: working memory grows with their number, by some 150 bytes for
-/// each.
+/// Points of the largest cloud that is read, 4096 x 4096: working memory grows with their number, by some 50 bytes for
+/// each, and by up to 130 more for each thread.
 constexpr std::uint32_t kMostPoints = 1U << 24U;
 
 /// Where a PointCloud2 keeps its coordinates, as it claims; nothing in here has been checked.

@@ -67,9 +67,9 @@ struct TaubinFit
 /// generalized eigenproblem (M - lambda N) c = 0, smallest eigenvalue. The constant term, which has no gradient, is
 /// eliminated by its Schur complement, which leaves 9 x 9 matrices.
 ///
-/// Empty where the points determine no unique quadric. Points with an RMS distance below 5e-6 of the radius from a
-/// common plane make N singular (their plane times any other plane fits); so do points on a line, coincident points and
-/// fewer than nine.
+/// Empty where the points determine no unique quadric. Points on a common plane make N singular (their plane times any
+/// other plane fits): within an RMS distance of 5e-6 of the radius where the plane is one of two coordinates, and the
+/// less the more it is inclined to all; so do points on a line, coincident points and fewer than nine.
 std::optional<TaubinFit> fitTaubin(const Neighborhood& neighborhood);
 
 /// The same from moments of the neighborhood with the given centre and radius.

@@ -29,7 +29,8 @@ struct PointThresholds
 };
 
 /// ShellConfig's thresholds for points `spacing` metres apart: as they stand, or with `scale_with_density` in
-/// proportion to the number of points that a surface shows. A spacing of 0 means unknown: as they stand.
+/// proportion to the number of points that a surface shows, but at least 2. A spacing of 0 means unknown: as they
+/// stand.
 PointThresholds pointThresholds(const ShellConfig& config, double spacing);
 
 struct ShellSearchResult

@@ -26,7 +26,8 @@ namespace grasp_affordances
 /// - agreement: of the samples drawn within it the share that ended as one of its shells, 0.3 or more counting as 1; of
 /// that
 ///   the square root;
-/// - clearance: 1 minus the mean of points in the gap over those that would block it;
+/// - clearance: 1 minus the mean of points in the gap over gap_points_to_block for each clearance length, which does
+///   not follow the density of points here;
 /// - observed free space: twice the mean share of the gaps that the sensor saw through, at most 1; left out without a
 ///   range image;
 /// - length over twice the clearance length, at most 1.

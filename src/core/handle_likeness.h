@@ -22,9 +22,9 @@ struct HandleShape
 /// direction.
 bool isBlob(const HandleShape& shape);
 
-/// How unlikely two are the same handle in successive clouds, from 0; what costs 1 or more is another one. Symmetric.
-/// Axes are compared where they are nearest, without regard to their sign; blobs also by their centroids alone.
-/// Infinity beyond the limits of TrackingConfig.
+/// How unlikely two are the same handle in successive clouds, from 0; what costs 1 or more is another one. Symmetric,
+/// but for bent ones of one length. Axes are compared where they are nearest, without regard to their sign; blobs also
+/// by their centroids alone. Infinity beyond the limits of TrackingConfig.
 double unlikeness(const HandleShape& a, const HandleShape& b, const TrackingConfig& config);
 
 /// Whether the part is found where the whole is known to be: its axis runs along the other one, for a good part between

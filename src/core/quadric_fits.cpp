@@ -90,7 +90,8 @@ HWY_ATTR HWY_INLINE void scatterOf(const std::array<Real, kMomentCount>& mean, S
   }
 }
 
-// The smallest pivot is the square of twice the RMS thickness of the points, relative to the radius.
+// The smallest pivot is the square of twice the RMS thickness of the points, relative to the radius, where they are
+// thin along a coordinate, and less where not.
 constexpr double kSmallestPivot = 1e-10;
 
 /// Cholesky factor of a symmetric matrix.
