@@ -40,7 +40,7 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
       warnings.push_back(views.size() == 1 ? warning : "view " + std::to_string(i + 1) + ": " + warning);
     }
     if (!views[i].T_common_cloud.matrix().cast<float>().allFinite()) {  // else one relative to another may be no number
-      warnings.push_back("view " + std::to_string(i + 1) + ": its pose is not finite");
+      warnings.push_back("view " + std::to_string(i + 1) + ": its pose is not finite in single precision");
     } else if (cloud.search != nullptr) {
       views_.push_back({i + 1, &cloud, views[i].T_common_cloud, first_point});
     }

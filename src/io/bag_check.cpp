@@ -183,7 +183,9 @@ std::string unpackBz2(std::string& packed, std::uint32_t size)
 {
   constexpr std::size_t kStep = 1U << 20;
   bz_stream stream{};
-  require(BZ2_bzDecompressInit(&stream, 0, 0) == BZ_OK, "there is no memory to unpack a chunk");
+  if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) {
+    throw CloudError("there is no memory to unpack a chunk of the bag");
+  }
   const std::unique_ptr<bz_stream, decltype(&BZ2_bzDecompressEnd)> end(&stream, BZ2_bzDecompressEnd);
   stream.next_in = packed.data();
   stream.avail_in = static_cast<unsigned int>(packed.size());

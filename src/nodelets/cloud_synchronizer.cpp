@@ -1,5 +1,7 @@
 #include "nodelets/cloud_synchronizer.h"
 
+#include "nodelets/ros_time.h"
+
 #include <ros/duration.h>
 #include <boost/function.hpp>
 #include <boost/shared_ptr.hpp>
@@ -19,8 +21,9 @@ constexpr std::uint32_t kQueue = 10;  // clouds per camera
 /// next cloud of each camera before it knew that a set is the best.
 constexpr double kLeastPeriod = 0.015;
 
-/// s; the synchronizer computes with differences of stamps, and roscpp's throw at 2^31 s.
-constexpr std::int64_t kLongestBetween = std::int64_t{1} << 30;
+/// s from the first stamp, before or after it. The synchronizer computes with 1.1 of the differences between stamps,
+/// and roscpp's throw at 2^31 s.
+constexpr std::int64_t kLongestBetween = std::int64_t{1} << 29;
 
 bool areFarApart(const ros::Time& a, const ros::Time& b)
 {
@@ -52,8 +55,8 @@ void CloudSynchronizer::add(std::size_t view, const Points& cloud)
 {
   static constexpr auto kAdders = adders<Synchronizer>(std::make_integer_sequence<int, kMostViews>());
   const ros::Time& stamp = cloud->header.stamp;
-  if (stamp.sec == ros::TIME_MAX.sec) {
-    return;  // it adds to stamps, too, and these are the last
+  if (!leavesRoom(stamp)) {
+    return;  // it adds to stamps, too
   }
   if (first_stamp_ && areFarApart(stamp, *first_stamp_)) {
     restart();

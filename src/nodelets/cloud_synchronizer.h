@@ -30,7 +30,8 @@ public:
   /// @param take   is handed the sets, from within add()
   CloudSynchronizer(std::size_t views, double slop, std::function<void(const Set&)> take);
 
-  /// A cloud of a camera, which are counted from 0. One with a stamp decades from the others' has them forgotten.
+  /// A cloud of a camera, which are counted from 0. One with a stamp decades from the others' has them forgotten; one
+  /// of the last minute of their 32 bits is left out.
   void add(std::size_t view, const Points& cloud);
 
   /// Forgets the clouds that wait for others.

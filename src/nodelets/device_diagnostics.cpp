@@ -58,7 +58,7 @@ bool DeviceDiagnostics::setState(DeviceState state, const std::string& message)
   const bool changed = state != state_;
   state_ = state;
   message_ = message;
-  if (changed) {
+  if (changed || !published_) {
     publish();
   }
   return changed;
@@ -81,6 +81,7 @@ void DeviceDiagnostics::publish()
   message.header.stamp = ros::Time::now();
   message.status.push_back(status);
   publisher_.publish(message);
+  published_ = true;
 }
 
 void DeviceDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status)

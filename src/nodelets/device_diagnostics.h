@@ -52,7 +52,7 @@ public:
   void setDevice(const std::string& uri, const std::string& serial);
   const std::string& uri() const { return uri_; }  ///< of the last device
 
-  /// A change of the state is published at once. Returns whether there was one.
+  /// The first state, and a change of it, are published at once. Returns whether there was a change.
   bool setState(DeviceState state, const std::string& message);
   DeviceState state() const { return state_; }
 
@@ -74,6 +74,7 @@ private:
   std::string message_ = "not opened yet";
   std::string uri_;
   std::string serial_;
+  bool published_ = false;
   Clock::time_point reported_ = Clock::now();
 };
 

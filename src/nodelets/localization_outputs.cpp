@@ -64,13 +64,13 @@ void LocalizationOutputs::close()
   updateSubscriptions();
 }
 
-void LocalizationOutputs::demand(bool needed)
+std::string LocalizationOutputs::demand(bool needed)
 {
   {
     const std::lock_guard<std::mutex> lock(connections_mutex_);
     demanded_ = needed;
   }
-  updateSubscriptions();
+  return updateSubscriptions();
 }
 
 bool LocalizationOutputs::anybodyListens() const
@@ -80,24 +80,28 @@ bool LocalizationOutputs::anybodyListens() const
   return std::any_of(all.begin(), all.end(), heard) || selection_.anybodyListens();
 }
 
-void LocalizationOutputs::updateSubscriptions()
+std::string LocalizationOutputs::updateSubscriptions()
 {
   const std::lock_guard<std::mutex> lock(connections_mutex_);
   const bool needed = open_ && (!lazy_ || demanded_ || (!on_demand_ && anybodyListens()));
   if (needed == subscribed_) {
-    return;
+    return "";
   }
   if (!needed) {
     subscribed_ = false;
     unsubscribe_();
-    return;
+    return "";
   }
   try {
     subscribe_();
     subscribed_ = true;
+    return "";
   } catch (const ros::Exception& error) {  // in a callback of the manager's, which would end with all its nodelets
     unsubscribe_();
-    ROS_ERROR_STREAM_NAMED(name_, "nothing is localized, for want of input: " << error.what());
+    if (missing_inputs_.due()) {
+      ROS_ERROR_STREAM_NAMED(name_, "nothing is localized, for want of input: " << error.what());
+    }
+    return error.what();
   }
 }
 

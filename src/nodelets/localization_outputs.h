@@ -42,13 +42,15 @@ public:
   };
 
   /// Advertises. `subscribe` is called when the inputs are needed: not `lazy`, at once; else while somebody listens to
-  /// an output or, `on_demand`, only while there is demand(). `unsubscribe` is called when they no longer are. Both
-  /// come from any thread, one at a time and in turn.
+  /// an output or, `on_demand`, only while there is demand(). `unsubscribe` is called when they no longer are, and when
+  /// `subscribe` throws a ros::Exception, which is logged; then it is tried again with the next listener. Both come
+  /// from any thread, one at a time.
   void advertise(ros::NodeHandle& private_node_handle, const std::string& name, bool lazy, bool on_demand,
                  std::function<void()> subscribe, std::function<void()> unsubscribe);
 
   /// Whether the inputs are needed, whoever listens. From any thread.
-  void demand(bool needed);
+  /// @return why they cannot be had; empty where they can
+  std::string demand(bool needed);
 
   /// Unsubscribes for good, and answers no more calls. The outputs remain: a result may still be on its way.
   void close();
@@ -77,7 +79,7 @@ public:
 
 private:
   bool anybodyListens() const;
-  void updateSubscriptions();
+  std::string updateSubscriptions();  // returns why the inputs cannot be had
 
   std::string name_;
   bool lazy_ = true;
@@ -89,6 +91,7 @@ private:
   bool open_ = false;             // a connection that is under way at the end must not subscribe again
   bool demanded_ = false;
   bool subscribed_ = false;
+  Throttle missing_inputs_;
   ros::Publisher shells_;
   ros::Publisher handles_;
   ros::Publisher hand_poses_;

@@ -172,7 +172,8 @@ void LocalizerNodelet::onInit()
   outputs_.advertise(
       private_nh, getName(), parameters_.lazy, parameters_.on_demand, [this] { subscribe(); },
       [this] { unsubscribe(); });
-  next_cloud_.advertise(private_nh, "cloud on " + pointsTopic(), [this](bool needed) { outputs_.demand(needed); });
+  next_cloud_.advertise(private_nh, "cloud on " + pointsTopic(),
+                        [this](bool needed) { return outputs_.demand(needed); });
   localize_service_.advertise(private_nh, [this](const Localize::Request& request, Localize::Response& response) {
     answer(request, response);
   });

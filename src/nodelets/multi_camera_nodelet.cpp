@@ -158,7 +158,7 @@ void MultiCameraNodelet::onInit()
   outputs_.advertise(
       private_nh, getName(), parameters_.node.lazy, parameters_.node.on_demand, [this] { subscribe(); },
       [this] { unsubscribe(); });
-  next_cloud_.advertise(private_nh, "set of clouds", [this](bool needed) { outputs_.demand(needed); });
+  next_cloud_.advertise(private_nh, "set of clouds", [this](bool needed) { return outputs_.demand(needed); });
 }
 
 void MultiCameraNodelet::nameTopics()

@@ -35,7 +35,7 @@ std::string refusal(double timeout)
 }  // namespace
 
 void NextCloud::advertise(const ros::NodeHandle& private_node_handle, const std::string& awaited,
-                          std::function<void(bool)> demand)
+                          std::function<std::string(bool)> demand)
 {
   awaited_ = awaited;
   demand_ = std::move(demand);
@@ -129,19 +129,21 @@ LocalizeNext::Response NextCloud::waitForAnswer(const RegionOfInterest& region, 
     state_ = State::waiting;
     region_ = region;
   }
-  demand_(true);
+  const std::string refusal = demand_(true);
   LocalizeNext::Response response;
   {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto ends = [&] { return closed_ || ros::isShuttingDown(); };
     const auto late = [&] { return state_ == State::waiting && Clock::now() >= deadline; };
-    while (state_ != State::answered && !ends() && !late()) {
+    while (refusal.empty() && state_ != State::answered && !ends() && !late()) {
       changed_.wait_for(lock, kShutdownPoll);
     }
     if (state_ == State::answered) {
       response = std::move(response_);
     } else if (ends()) {
       response = failure("the node ends");
+    } else if (!refusal.empty()) {
+      response = failure("no clouds can be had: " + refusal);
     } else {
       std::ostringstream text;
       text << "no " << awaited_ << " arrived within " << timeout << " s";

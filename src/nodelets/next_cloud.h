@@ -32,9 +32,10 @@ public:
   ~NextCloud() { close(); }
 
   /// @param awaited  what a call waits for, in words
-  /// @param demand   is told whether a call needs clouds to come, see LocalizationOutputs::demand()
+  /// @param demand   is told whether a call needs clouds to come, and returns why they cannot, see
+  /// LocalizationOutputs::demand()
   void advertise(const ros::NodeHandle& private_node_handle, const std::string& awaited,
-                 std::function<void(bool)> demand);
+                 std::function<std::string(bool)> demand);
 
   /// Answers the call that waits, with a failure, and ends the service.
   void close();
@@ -64,7 +65,7 @@ private:
   void finish(LocalizeNext::Response response);
 
   std::string awaited_;
-  std::function<void(bool)> demand_;
+  std::function<std::string(bool)> demand_;
 
   std::mutex mutex_;  // guards the following
   std::condition_variable changed_;

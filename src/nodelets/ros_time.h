@@ -5,10 +5,19 @@
 #include <ros/time.h>
 #include <ros/wall_timer.h>
 
+#include <cstdint>
 #include <string>
 
 namespace grasp_affordances
 {
+
+/// Whether some seconds can be added to a stamp: roscpp throws beyond the end of its 32 bits, and takes nanoseconds of
+/// up to four seconds from a message as they are.
+inline bool leavesRoom(const ros::Time& stamp)
+{
+  constexpr std::uint32_t kRoom = 60;  // s
+  return stamp.sec < ros::TIME_MAX.sec - kRoom;
+}
 
 /// Notices when the stamps of a stream of messages go back, as where a bag is played again from its start or a
 /// simulation is reset: whatever was learnt from later stamps is then of another run. Judged by the messages alone,

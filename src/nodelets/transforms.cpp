@@ -22,8 +22,6 @@ constexpr std::chrono::milliseconds kShutdownPoll{50};  // nothing tells of the 
 /// s by which the transforms of one frame may arrive out of order: several nodes may publish them. tf2 sorts them.
 constexpr double kDisorder = 0.5;
 
-constexpr double kThrottlePeriod = 5.0;  // s between repetitions of a complaint
-
 /// tf2 knows no leading slash, with which older drivers and bags name their frames.
 std::string frameName(const std::string& name)
 {
@@ -83,7 +81,7 @@ Eigen::Isometry3d Transforms::lookup(const std::string& target_frame, const std:
     return isometry(buffer_.lookupTransform(target, source, stamp));
   } catch (const tf2::TransformException&) {
     throw;
-  } catch (const std::exception& error) {  // of roscpp's, about a stamp so far from those known that none is between
+  } catch (const std::exception& error) {  // roscpp's: from the known stamps it is farther than a Duration can be
     throw tf2::ExtrapolationException(error.what());
   }
 }
@@ -107,12 +105,12 @@ void Transforms::close()
 void Transforms::receive(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool fixed)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  // tf2 adds that to stamps, and roscpp's throw where they end.
-  const ros::Time latest = ros::TIME_MAX - buffer_.getCacheLength();
   for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
-    if (transform.header.stamp > latest) {
-      ROS_WARN_STREAM_THROTTLE(kThrottlePeriod, "a transform was ignored: its stamp, "
-                                                    << transform.header.stamp << " s, is too large to compute with");
+    if (!leavesRoom(transform.header.stamp)) {  // tf2 adds the length of its memory
+      if (refusals_.due()) {
+        ROS_WARN_STREAM("a transform was ignored: its stamp, " << transform.header.stamp.sec
+                                                               << " s, is too large to compute with");
+      }
       continue;
     }
     if (!fixed && wentBack(transform)) {

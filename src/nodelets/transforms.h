@@ -1,6 +1,7 @@
 #pragma once
 
 #include "nodelets/ros_time.h"
+#include "nodelets/throttle.h"
 
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/callback_queue.h>
@@ -69,6 +70,7 @@ private:
   std::condition_variable changed_;
   tf2::BufferCore buffer_;
   std::map<std::string, TimeJumps> streams_;  // of the moving transforms, by child frame
+  Throttle refusals_;
   bool restarted_ = false;
   bool closed_ = false;
 

@@ -41,6 +41,15 @@ public:
   }
 
   void add(std::size_t view, double time) { synchronizer_.add(view, cloudAt(time)); }
+
+  /// With more nanoseconds than a second has, as a message may have them.
+  void addBeyond(std::size_t view, double time)
+  {
+    const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(*cloudAt(time));
+    cloud->header.stamp.nsec = 4294967295U;
+    synchronizer_.add(view, cloud);
+  }
+
   void restart() { synchronizer_.restart(); }
 
   std::vector<CloudSynchronizer::Set> sets;
@@ -103,20 +112,23 @@ TEST(CloudSynchronizer, ASilentCameraMakesNoSet)
 /// With some of them roscpp's times cannot be computed.
 TEST(CloudSynchronizer, TakesStampsOfAnyKind)
 {
-  const double times[] = {kStart, 0.0, 1.7e9, 2147483647.0, 2147483648.5, 4294967290.0, 4294967295.0, 4294967295.999};
+  const double times[] = {kStart, 0.0, 0.7e9, 1.7e9, 2147483647.0, 2147483648.5, 2.8e9, 4294967290.0, 4294967295.9};
   for (const double first : times) {
     for (const double second : times) {
-      Cameras cameras(3);
-      for (const std::size_t view : {0, 1, 1, 2, 0}) {
-        cameras.add(view, first);
-        cameras.add(view, second);
+      for (const double third : times) {
+        Cameras cameras(2);
+        for (const double time : {first, second, third, second}) {
+          cameras.add(0, time);
+          cameras.add(1, time + 0.019);
+          cameras.addBeyond(1, time);
+        }
+        cameras.restart();
+        const std::size_t before = cameras.sets.size();
+        for (int i = 0; i < 3; ++i) {
+          cameras.deliver(1.7e9 + 10.0 + i * kPeriod);
+        }
+        EXPECT_GT(cameras.sets.size(), before) << first << ", " << second << ", " << third;
       }
-      cameras.restart();
-      const std::size_t before = cameras.sets.size();
-      for (int i = 0; i < 3; ++i) {
-        cameras.deliver(1.7e9 + 10.0 + i * kPeriod);
-      }
-      EXPECT_GT(cameras.sets.size(), before) << first << ", " << second;
     }
   }
 }

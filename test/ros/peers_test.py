@@ -208,7 +208,7 @@ class Peers(unittest.TestCase):
                     bad.header.stamp = rospy.Time.now()
                     clouds.publish(bad)
                     if i == 0:  # else a slow node may find it superseded
-                        time.sleep(0.1 * (TIME_FACTOR - 1))
+                        time.sleep(0.1 * TIME_FACTOR)
                 table = copy.copy(self.table)
                 table.header = copy.copy(self.table.header)
                 table.header.stamp = rospy.Time.now()

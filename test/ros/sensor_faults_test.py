@@ -95,6 +95,7 @@ class SensorFaults(unittest.TestCase):
 
     def test_parameters_that_are_set_later_change_nothing(self):
         diagnostics = Diagnostics('steady')
+        self.addCleanup(rospy.delete_param, 'steady')
         with VirtualDevices(device()) as devices, devices.driver('steady') as driver:
             images = Listener('steady/depth/image_raw', Image)
             images.wait()
@@ -105,7 +106,6 @@ class SensorFaults(unittest.TestCase):
                 images.wait(lambda image: image.header.stamp > since)
             images.close()
             self.check_end(driver)
-        rospy.delete_param('steady')
         diagnostics.close()
 
     def test_stalled(self):

@@ -86,7 +86,7 @@ class Diagnostics:
 
 
 def value(status, key):
-    """None where there is none, as in the first status of all, that the node starts."""
+    """None where there is none."""
     return next((pair.value for pair in status.values if pair.key == key), None)
 
 

@@ -341,7 +341,7 @@ TEST(SeveralViews, GoOnWithoutThoseThatMeasuredNothing)
     const Localization posed = localizeViews(config, {{&cloud, Pose::Identity()}, {&cloud, nowhere}});
     EXPECT_EQ(posed.counts, Localizer(config).localize(cloud).counts);
     ASSERT_EQ(posed.warnings.size(), 1U);
-    EXPECT_EQ(posed.warnings[0], "view 2: its pose is not finite");
+    EXPECT_EQ(posed.warnings[0], "view 2: its pose is not finite in single precision");
   }
 
   const Localization none = localizeViews(config, {{&nothing, Pose::Identity()}, {&nothing, somePose()}});
