@@ -5,6 +5,7 @@ nodelet when one of them is killed. ~cycles: how often the localizer is loaded; 
 import collections
 import os
 import signal
+import socket
 import time
 import unittest
 
@@ -78,7 +79,10 @@ class Reload(unittest.TestCase):
                 rospy.loginfo('%s, cycle %d: %s', kind, cycle, usage(host))
             nodelets.load(name, kind, remappings)
             with RawSubscriber(uri, output) as subscriber:  # rospy's own is slower than a nodelet may come and go
-                subscriber.message(output_type)
+                try:
+                    subscriber.message(output_type)
+                except socket.timeout:
+                    self.fail('nothing on %s in cycle %d: %s' % (output, cycle, host.output()))
             start = time.monotonic()
             nodelets.unload(name)
             longest = max(longest, time.monotonic() - start)
