@@ -48,10 +48,10 @@ T valueAs(const std::string& name, const YAML::Node& node, const char* kind)
 }
 
 /// Takes the values that have a parameter out of a map, into the config's fields.
-class Assignment
+class ValuesToConfig
 {
 public:
-  explicit Assignment(Values& values) : values_(values) {}
+  explicit ValuesToConfig(Values& values) : values_(values) {}
 
   template <typename T>
   void operator()(const char* name, T& field, const Range<T>&, const char*, const char*)
@@ -108,7 +108,7 @@ Config readConfig(const std::string& text, const Config& base)
     config = presetConfig(valueAs<std::string>("preset", preset->second, "a word"));
     values.erase(preset);
   }
-  visitParameters(config, Assignment(values));
+  visitParameters(config, ValuesToConfig(values));
   if (!values.empty()) {
     const auto& unknown = *values.begin();
     throw ParameterError(unknown.first + ": no such parameter (its value: '" + textOf(unknown.second) + "')");

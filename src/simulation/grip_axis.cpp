@@ -22,12 +22,6 @@ double halfChord(double radius, double distance)
   return std::sqrt(std::max(0.0, radius * radius - distance * distance));
 }
 
-/// Frame whose z axis is the given unit vector.
-Eigen::Isometry3d frameAlong(const Eigen::Vector3d& z)
-{
-  return Eigen::Isometry3d(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z));
-}
-
 /// Frame whose z, x and y axes are the axes k, k + 1 and k + 2, counted round.
 Eigen::Isometry3d frameOfAxis(int k)
 {

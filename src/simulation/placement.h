@@ -2,46 +2,28 @@
 
 #include <Eigen/Geometry>
 
+// Not inline: Eigen's rotation between two vectors takes longer to compile than most of the files that ask for one.
 namespace grasp_affordances
 {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 
-inline Eigen::Isometry3d at(double x, double y, double z)
-{
-  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
+Eigen::Isometry3d at(double x, double y, double z);
 
-inline Eigen::Isometry3d turned(double angle, const Eigen::Vector3d& axis)
-{
-  return Eigen::Isometry3d(Eigen::AngleAxisd(angle, axis));
-}
+/// `axis`: a unit vector.
+Eigen::Isometry3d turned(double angle, const Eigen::Vector3d& axis);
 
 /// Upright at (x, y) on the plane z = 0, turned about the vertical.
-inline Eigen::Isometry3d upright(double x, double y, double yaw)
-{
-  return at(x, y, 0.0) * turned(yaw, Eigen::Vector3d::UnitZ());
-}
+Eigen::Isometry3d upright(double x, double y, double yaw);
+
+/// Frame at the origin whose z axis has the direction of `z`, by the shortest rotation.
+Eigen::Isometry3d frameAlong(const Eigen::Vector3d& z);
 
 /// Frame with its origin halfway from `from` to `to` and its z axis in that direction.
-inline Eigen::Isometry3d halfway(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
-{
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to - from).toRotationMatrix();
-  T.translation() = 0.5 * (from + to);
-  return T;
-}
+Eigen::Isometry3d halfway(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// Optical frame of a camera at `eye` that has `target` in the middle of its picture, with z up in the scene.
-inline Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target)
-{
-  const Eigen::Vector3d forward = (target - eye).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Isometry3d T_scene_camera = Eigen::Isometry3d::Identity();
-  T_scene_camera.linear() << right, forward.cross(right), forward;
-  T_scene_camera.translation() = eye;
-  return T_scene_camera;
-}
+Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target);
 
 }  // namespace grasp_affordances
