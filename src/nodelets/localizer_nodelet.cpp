@@ -8,6 +8,7 @@
 #include "nodelets/conversions.h"
 #include "nodelets/localization_outputs.h"
 #include "nodelets/localize_service.h"
+#include "nodelets/name_claim.h"
 #include "nodelets/newest_only_worker.h"
 #include "nodelets/next_cloud.h"
 #include "nodelets/parameters_ros.h"
@@ -125,6 +126,7 @@ private:
   Eigen::Isometry3d transform(const std::string& frame, const std_msgs::Header& header, Transforms::Deadline deadline);
   std::unique_ptr<Workplace> workplace(const Config& config) const;
 
+  NameClaim name_claim_;
   NodeParameters parameters_;
   LocalizationOutputs outputs_;
   ros::WallTimer clock_complaint_;
@@ -153,9 +155,10 @@ void LocalizerNodelet::onInit()
 {
   ros::NodeHandle& private_nh = getPrivateNodeHandle();
   try {
+    name_claim_.claim(getName());
     parameters_ = nodeParameters(private_nh);
     own_place_ = workplace(parameters_.config);
-  } catch (const ParameterError& error) {
+  } catch (const std::exception& error) {  // ParameterError, or the name is taken
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
   }

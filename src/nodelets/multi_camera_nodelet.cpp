@@ -6,6 +6,7 @@
 #include "nodelets/camera_info_input.h"
 #include "nodelets/cloud_synchronizer.h"
 #include "nodelets/localization_outputs.h"
+#include "nodelets/name_claim.h"
 #include "nodelets/newest_only_worker.h"
 #include "nodelets/next_cloud.h"
 #include "nodelets/parameters_ros.h"
@@ -107,6 +108,7 @@ private:
   void localize(const Arrival& arrival, const std::optional<RegionOfInterest>& call);
   void convert(const sensor_msgs::PointCloud2& message, View& view);
 
+  NameClaim name_claim_;
   MultiCameraParameters parameters_;
   LocalizationOutputs outputs_;
   ros::WallTimer clock_complaint_;
@@ -138,10 +140,11 @@ void MultiCameraNodelet::onInit()
 {
   ros::NodeHandle& private_nh = getPrivateNodeHandle();
   try {
+    name_claim_.claim(getName());
     parameters_ = multiCameraParameters(private_nh);
     localizer_ = std::make_unique<Localizer>(parameters_.node.config);
     localizer_->cancelWhen([this] { return ending_ || ros::isShuttingDown(); });
-  } catch (const ParameterError& error) {
+  } catch (const std::exception& error) {  // ParameterError, or the name is taken
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
   }

@@ -1,6 +1,7 @@
 #include "grasp_affordances/config.h"
 #include "nodelets/camera_frames.h"
 #include "nodelets/camera_messages.h"
+#include "nodelets/name_claim.h"
 #include "nodelets/newest_only_worker.h"
 #include "nodelets/simulated_camera_parameters.h"
 #include "simulation/camera_orbit.h"
@@ -74,6 +75,7 @@ private:
   void renderAhead();
   void publish(const FrameMessages& frame);
 
+  NameClaim name_claim_;
   SimulatedCameraParameters parameters_;
   std::string link_frame_;
   std::string optical_frame_;
@@ -100,6 +102,7 @@ private:
 void SimulatedCameraNodelet::onInit()
 {
   try {
+    name_claim_.claim(getName());
     parameters_ = simulatedCameraParameters(getPrivateNodeHandle());
     view_ = viewFromAside(makeScene(parameters_.scene, parameters_.seed), kDegree * parameters_.turn_deg);
   } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 #include "nodelets/camera_frames.h"
 #include "nodelets/camera_stream.h"
 #include "nodelets/device_diagnostics.h"
+#include "nodelets/name_claim.h"
 #include "nodelets/xtion_parameters.h"
 #include "openni2/device.h"
 #include "openni2/device_error.h"
@@ -81,6 +82,7 @@ private:
   std::chrono::duration<double> silence() const;  // of the stream that owes a frame for longest
   bool pause(std::chrono::milliseconds time);     // returns whether the nodelet goes on
 
+  NameClaim name_claim_;
   XtionParameters parameters_;
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> transforms_;
   std::unique_ptr<DeviceDiagnostics> diagnostics_;
@@ -102,8 +104,9 @@ private:
 void XtionNodelet::onInit()
 {
   try {
+    name_claim_.claim(getName());
     parameters_ = xtionParameters(getPrivateNodeHandle());
-  } catch (const ParameterError& error) {
+  } catch (const std::exception& error) {  // ParameterError, or the name is taken
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
   }

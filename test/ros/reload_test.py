@@ -29,9 +29,10 @@ SLACK = 5          # s, of a busy machine
 
 
 def tidy_heap(environment=os.environ):
-    """In which the allocator keeps no memory that was freed: no heap for each thread that there once was at a time, and a
-    mapping of its own for every large block."""
-    return dict(environment, MALLOC_ARENA_MAX='1', MALLOC_MMAP_THRESHOLD_='65536', MALLOC_TRIM_THRESHOLD_='65536')
+    """In which the allocator keeps next to no memory that was freed: no heap for each thread that there once was at a
+    time, and a mapping of its own for every block of a page or more, so that a small block that lives on at the end of
+    the heap keeps little of what lies before it."""
+    return dict(environment, MALLOC_ARENA_MAX='1', MALLOC_MMAP_THRESHOLD_='4096', MALLOC_TRIM_THRESHOLD_='4096')
 
 
 def usage_at_rest(process):
@@ -87,6 +88,7 @@ class Reload(unittest.TestCase):
             nodelets.unload(name)
             longest = max(longest, time.monotonic() - start)
         self.assertLess(longest, 2 + SLACK)
+        self.assertNotIn('already advertised', host.output(), 'a nodelet began before the one before it had ended')
         # Connections end when their other ends are told. The master may keep some, to tell of publishers.
         wait_until(lambda: usage(host).files <= before.files + MASTER_THREADS and
                    usage(host).threads <= before.threads,
