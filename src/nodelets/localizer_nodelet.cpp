@@ -158,7 +158,7 @@ void LocalizerNodelet::onInit()
     name_claim_.claim(getName());
     parameters_ = nodeParameters(private_nh);
     own_place_ = workplace(parameters_.config);
-  } catch (const std::exception& error) {  // ParameterError, or the name is taken
+  } catch (const std::exception& error) {
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
   }

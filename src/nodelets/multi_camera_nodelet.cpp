@@ -144,7 +144,7 @@ void MultiCameraNodelet::onInit()
     parameters_ = multiCameraParameters(private_nh);
     localizer_ = std::make_unique<Localizer>(parameters_.node.config);
     localizer_->cancelWhen([this] { return ending_ || ros::isShuttingDown(); });
-  } catch (const std::exception& error) {  // ParameterError, or the name is taken
+  } catch (const std::exception& error) {
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
   }

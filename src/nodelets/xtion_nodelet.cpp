@@ -106,7 +106,7 @@ void XtionNodelet::onInit()
   try {
     name_claim_.claim(getName());
     parameters_ = xtionParameters(getPrivateNodeHandle());
-  } catch (const std::exception& error) {  // ParameterError, or the name is taken
+  } catch (const std::exception& error) {
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
     throw;
   }
