@@ -1,6 +1,7 @@
 #include "nodelets/localization_outputs.h"
 
 #include "nodelets/conversions.h"
+#include "nodelets/subscribing.h"
 
 #include <geometry_msgs/PoseArray.h>
 #include <ros/console.h>
@@ -87,6 +88,7 @@ std::string LocalizationOutputs::updateSubscriptions()
   if (needed == subscribed_) {
     return "";
   }
+  const std::lock_guard<std::mutex> alone(subscribing());
   if (!needed) {
     subscribed_ = false;
     unsubscribe_();

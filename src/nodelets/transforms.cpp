@@ -1,5 +1,7 @@
 #include "nodelets/transforms.h"
 
+#include "nodelets/subscribing.h"
+
 #include <ros/console.h>
 #include <ros/duration.h>
 #include <ros/init.h>
@@ -41,6 +43,14 @@ Eigen::Isometry3d isometry(geometry_msgs::TransformStamped transform)
 
 Transforms::Transforms(const ros::NodeHandle& node_handle) : node_handle_(node_handle), spinner_(kThreads, &queue_) {}
 
+Transforms::~Transforms()
+{
+  spinner_.stop();
+  const std::lock_guard<std::mutex> alone(subscribing());
+  moving_.shutdown();
+  fixed_.shutdown();
+}
+
 void Transforms::listen()
 {
   const std::lock_guard<std::mutex> lock(listening_mutex_);
@@ -55,6 +65,7 @@ void Transforms::listen()
     options.callback_queue = &queue_;
     return node_handle_.subscribe(options);
   };
+  const std::lock_guard<std::mutex> alone(subscribing());
   moving_ = subscribe("/tf", false);
   fixed_ = subscribe("/tf_static", true);
   spinner_.start();

@@ -43,6 +43,7 @@ public:
 
   /// Names are remapped as those of the node handle.
   explicit Transforms(const ros::NodeHandle& node_handle);
+  ~Transforms();
 
   /// Subscribes. Of what was published before, only the fixed transforms will be known.
   void listen();
@@ -79,7 +80,7 @@ private:
   ros::CallbackQueue queue_;
   ros::Subscriber moving_;
   ros::Subscriber fixed_;
-  ros::AsyncSpinner spinner_;  // last: it stops before the rest goes
+  ros::AsyncSpinner spinner_;
 };
 
 }  // namespace grasp_affordances

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Nodelets that are loaded and unloaded again and again while clouds flow, and what becomes of manager, loader and
-nodelet when one of them is killed. ~cycles: how often the localizer is loaded; ~other_cycles: the other nodelets."""
+nodelet when one of them is killed. ~cycles: how often the localizer is loaded; ~other_cycles: the other nodelets;
+~turns: how often a client goes from one localizer to another one."""
 
 import collections
 import os
@@ -55,7 +56,7 @@ def advertised():
 
 class Reload(unittest.TestCase):
     def tearDown(self):
-        for name in ('localizer', 'multi_camera', 'simulated', 'camera'):
+        for name in ('localizer', 'other_localizer', 'multi_camera', 'simulated', 'camera'):
             if rospy.has_param(name):
                 rospy.delete_param(name)
 
@@ -123,6 +124,26 @@ class Reload(unittest.TestCase):
         with VirtualDevices(device()) as devices, manager(tidy_heap(devices.environment)) as host:
             self.check_cycles(host, '/camera/driver', 'XtionNodelet', '/camera/depth/image_raw',
                               Image)
+            self.check_clean_end(host)
+
+    def test_localizers_that_take_turns(self):
+        """Lazy ones in one manager: as a client goes from one to the other, one lets go of the topic that the other one
+        takes up."""
+        with publisher(scene('table'), rate=30), manager() as host:
+            nodelets = Nodelets()
+            for name in ('/localizer', '/other_localizer'):
+                rospy.set_param(name, {'sampling': {'samples': 100}})
+                nodelets.load(name, 'LocalizerNodelet')
+            uri = rosgraph.Master(rospy.get_name()).lookupNode('/manager')
+            last = RawSubscriber(uri, '/localizer/statistics')
+            for turn in range(rospy.get_param('~turns')):
+                last.close()
+                last = RawSubscriber(uri, '/%s/statistics' % ('other_localizer', 'localizer')[turn % 2])
+                try:
+                    last.message(LocalizationStatistics)
+                except socket.timeout:
+                    self.fail('nothing in turn %d: %s' % (turn, host.output()))
+            last.close()
             self.check_clean_end(host)
 
     def check_answers(self):
