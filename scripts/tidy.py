@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 TOGETHER = 8
-OURS = r"/(include/grasp_affordances|src/[a-z0-9_]+|test/[a-z0-9_]+)/[a-z0-9_]+\.(h|cpp)$"
+OURS = r"/(include/grasp_affordances|src|test)/([a-z0-9_]+/)*[a-z0-9_]+\.(h|cpp)$"
 # Precompiled headers are GCC's; clang cannot read them.
 NOT_FOR_CLANG = re.compile(r" (-Winvalid-pch|-include \S*cmake_pch\S*)")
 

@@ -1,14 +1,14 @@
 #include "grasp_affordances/localizer.h"
 
-#include "core/cancellation.h"
-#include "core/hand_pose_search.h"
-#include "core/handle_finder.h"
-#include "core/prepared_views.h"
+#include "core/hand_poses/hand_pose_search.h"
+#include "core/handles/handle_finder.h"
+#include "core/parallel/cancellation.h"
+#include "core/parallel/stopwatch.h"
+#include "core/parallel/thread_team.h"
+#include "core/parallel/time_budget.h"
 #include "core/sample_block.h"
 #include "core/sample_draw.h"
-#include "core/stopwatch.h"
-#include "core/thread_team.h"
-#include "core/time_budget.h"
+#include "core/views/prepared_views.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,12 +1,11 @@
 #include "core/sample_block.h"
 
-#include "grasp_affordances/circle.h"
-#include "grasp_affordances/free_space.h"
-#include "grasp_affordances/occlusion.h"
-#include "grasp_affordances/principal_axis.h"
-#include "grasp_affordances/random.h"
-
-#include "core/stopwatch.h"
+#include "core/fit/circle.h"
+#include "core/fit/principal_axis.h"
+#include "core/neighborhoods/occlusion.h"
+#include "core/parallel/random.h"
+#include "core/parallel/stopwatch.h"
+#include "core/shell/free_space.h"
 
 #include <Eigen/Geometry>
 

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "grasp_affordances/config.h"
-#include "grasp_affordances/curvature.h"
 #include "grasp_affordances/localization.h"
-#include "grasp_affordances/neighborhoods.h"
-#include "grasp_affordances/quadric.h"
-#include "grasp_affordances/shell.h"
 
-#include "core/cancellation.h"
-#include "core/prepared_views.h"
-#include "core/time_budget.h"
+#include "core/fit/curvature.h"
+#include "core/fit/quadric.h"
+#include "core/neighborhoods/neighborhoods.h"
+#include "core/parallel/cancellation.h"
+#include "core/parallel/time_budget.h"
+#include "core/shell/shell.h"
+#include "core/views/prepared_views.h"
 
 #include <Eigen/Core>
 

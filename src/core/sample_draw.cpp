@@ -1,6 +1,6 @@
 #include "core/sample_draw.h"
 
-#include "grasp_affordances/random.h"
+#include "core/parallel/random.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "grasp_affordances/config.h"
-#include "grasp_affordances/neighborhoods.h"
 
-#include "core/cancellation.h"
-#include "core/prepared_views.h"
+#include "core/neighborhoods/neighborhoods.h"
+#include "core/parallel/cancellation.h"
+#include "core/parallel/thread_team.h"
 #include "core/sample_block.h"
-#include "core/thread_team.h"
+#include "core/views/prepared_views.h"
 
 #include <Eigen/Core>
 

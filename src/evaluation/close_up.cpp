@@ -1,6 +1,6 @@
 #include "evaluation/close_up.h"
 
-#include "grasp_affordances/range_image.h"
+#include "core/cloud/range_image.h"
 #include "simulation/ground_truth.h"
 
 #include <Eigen/Geometry>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "core/cloud/range_image.h"
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/localization.h"
-#include "grasp_affordances/range_image.h"
 
 #include <Eigen/Geometry>
 

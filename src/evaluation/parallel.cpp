@@ -1,6 +1,6 @@
 #include "evaluation/parallel.h"
 
-#include "core/std_team.h"
+#include "core/parallel/std_team.h"
 
 namespace grasp_affordances
 {

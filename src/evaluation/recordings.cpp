@@ -1,6 +1,6 @@
 #include "evaluation/recordings.h"
 
-#include "core/one_line.h"
+#include "core/config/one_line.h"
 #include "io/pcd.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "evaluation/statistics.h"
 
-#include "grasp_affordances/random.h"
+#include "core/parallel/random.h"
 
 #include <boost/math/distributions/students_t.hpp>
 

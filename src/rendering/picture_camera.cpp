@@ -1,6 +1,6 @@
 #include "rendering/picture_camera.h"
 
-#include "grasp_affordances/range_image.h"
+#include "core/cloud/range_image.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "grasp_affordances/random.h"
+#include "core/parallel/random.h"
 
 #include <cstdint>
 

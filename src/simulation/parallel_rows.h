@@ -1,7 +1,7 @@
 #pragma once
 
 #ifdef GRASP_AFFORDANCES_STD_THREADS
-#include "core/std_team.h"
+#include "core/parallel/std_team.h"
 #else
 #include <tbb/parallel_for.h>
 #endif

@@ -1,13 +1,13 @@
 #include "benchmark/stages.h"
 
-#include "grasp_affordances/circle.h"
-#include "grasp_affordances/hidden_surfaces.h"
-#include "grasp_affordances/normals.h"
-#include "grasp_affordances/occlusion.h"
+#include "core/fit/circle.h"
+#include "core/fit/normals.h"
+#include "core/fit/principal_axis.h"
+#include "core/neighborhoods/occlusion.h"
+#include "core/parallel/random.h"
+#include "core/views/hidden_surfaces.h"
+#include "core/views/sampling.h"
 #include "grasp_affordances/point_cloud2.h"
-#include "grasp_affordances/principal_axis.h"
-#include "grasp_affordances/random.h"
-#include "grasp_affordances/sampling.h"
 
 #include <benchmark/benchmark.h>
 #include <pcl/conversions.h>

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "benchmark/textbook.h"
+#include "core/cloud/range_image.h"
+#include "core/fit/curvature.h"
+#include "core/fit/quadric.h"
+#include "core/neighborhoods/neighborhoods.h"
+#include "core/shell/shell.h"
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/config.h"
-#include "grasp_affordances/curvature.h"
-#include "grasp_affordances/neighborhoods.h"
-#include "grasp_affordances/quadric.h"
-#include "grasp_affordances/range_image.h"
-#include "grasp_affordances/shell.h"
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/search/organized.h>

@@ -1,6 +1,6 @@
 #include "benchmark/textbook.h"
 
-#include "grasp_affordances/sampling.h"
+#include "core/views/sampling.h"
 
 #include <lapacke.h>
 #include <pcl/common/centroid.h>

@@ -3,14 +3,14 @@
 
 #include "benchmark/textbook.h"
 
+#include "core/fit/circle.h"
+#include "core/fit/curvature.h"
+#include "core/fit/quadric.h"
+#include "core/neighborhoods/neighborhoods.h"
+#include "core/views/sampling.h"
 #include "evaluation/judge.h"
-#include "grasp_affordances/circle.h"
-#include "grasp_affordances/curvature.h"
 #include "grasp_affordances/localizer.h"
-#include "grasp_affordances/neighborhoods.h"
 #include "grasp_affordances/parameters.h"
-#include "grasp_affordances/quadric.h"
-#include "grasp_affordances/sampling.h"
 #include "support/points.h"
 #include "support/scenes.h"
 

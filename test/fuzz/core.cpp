@@ -1,4 +1,4 @@
-#include "core/instruction_sets.h"
+#include "core/kernels/instruction_sets.h"
 #include "fuzz/core_input.h"
 #include "fuzz/targets.h"
 #include "grasp_affordances/localizer.h"

@@ -2,15 +2,14 @@
 
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
-#include "grasp_affordances/range_image.h"
-#include "grasp_affordances/sampling.h"
 
-#include "core/handle_finder.h"
-#include "core/prepared_views.h"
+#include "core/cloud/range_image.h"
+#include "core/handles/handle_finder.h"
+#include "core/parallel/thread_team.h"
+#include "core/parallel/time_budget.h"
 #include "core/sample_block.h"
-#include "core/thread_team.h"
-#include "core/time_budget.h"
-
+#include "core/views/prepared_views.h"
+#include "core/views/sampling.h"
 #include "support/points.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/instruction_sets.h"
+#include "core/kernels/instruction_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "core/neighborhoods/neighborhoods.h"
+#include "core/parallel/random.h"
 #include "grasp_affordances/cloud.h"
-#include "grasp_affordances/neighborhoods.h"
-#include "grasp_affordances/random.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

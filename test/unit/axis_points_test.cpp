@@ -1,8 +1,8 @@
-#include "core/axis_points.h"
-#include "core/axis_slices.h"
-#include "core/instruction_sets.h"
-#include "core/pixel_lookup.h"
-#include "grasp_affordances/range_image.h"
+#include "core/kernels/axis_points.h"
+#include "core/cloud/range_image.h"
+#include "core/kernels/instruction_sets.h"
+#include "core/kernels/pixel_lookup.h"
+#include "core/shell/axis_slices.h"
 #include "support/points.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/cancellation.h"
+#include "core/parallel/cancellation.h"
 
 #include "grasp_affordances/localizer.h"
 #include "support/scenes.h"

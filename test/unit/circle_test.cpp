@@ -1,4 +1,4 @@
-#include "grasp_affordances/circle.h"
+#include "core/fit/circle.h"
 
 #include "support/points.h"
 

@@ -1,7 +1,7 @@
-#include "core/measured_kernels.h"
-#include "core/moment_sums.h"
-#include "core/nearest.h"
-#include "core/ray_sums.h"
+#include "core/kernels/measured_kernels.h"
+#include "core/kernels/moment_sums.h"
+#include "core/kernels/nearest.h"
+#include "core/kernels/ray_sums.h"
 #include "grasp_affordances/cloud.h"
 
 #include "support/instruction_sets.h"

@@ -1,4 +1,4 @@
-#include "grasp_affordances/curvature.h"
+#include "core/fit/curvature.h"
 
 #include "support/points.h"
 

@@ -1,7 +1,6 @@
-#include "core/cylinder_fit.h"
+#include "core/handles/cylinder_fit.h"
 
-#include "grasp_affordances/circle.h"
-
+#include "core/fit/circle.h"
 #include "support/points.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include "grasp_affordances/localizer.h"
 
-#include "core/hand_pose_search.h"
-#include "core/prepared_views.h"
-#include "core/thread_team.h"
+#include "core/hand_poses/hand_pose_search.h"
+#include "core/parallel/thread_team.h"
+#include "core/views/prepared_views.h"
 #include "simulation/camera_orbit.h"
 #include "simulation/placement.h"
 #include "simulation/sensor.h"

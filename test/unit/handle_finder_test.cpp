@@ -1,9 +1,9 @@
-#include "core/handle_finder.h"
+#include "core/handles/handle_finder.h"
 
 #include "grasp_affordances/localizer.h"
 
-#include "core/prepared_views.h"
-#include "core/thread_team.h"
+#include "core/parallel/thread_team.h"
+#include "core/views/prepared_views.h"
 #include "simulation/camera_orbit.h"
 #include "simulation/placement.h"
 #include "simulation/sensor.h"

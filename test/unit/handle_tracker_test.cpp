@@ -1,7 +1,7 @@
 #include "grasp_affordances/handle_tracker.h"
 
-#include "core/assignment.h"
-#include "core/axis_curve.h"
+#include "core/tracking/assignment.h"
+#include "core/tracking/axis_curve.h"
 #include "grasp_affordances/localization.h"
 
 #include <gtest/gtest.h>

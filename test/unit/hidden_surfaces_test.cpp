@@ -1,9 +1,7 @@
-#include "grasp_affordances/hidden_surfaces.h"
+#include "core/views/hidden_surfaces.h"
 
-#include "grasp_affordances/random.h"
-
-#include "core/hidden_surfaces.h"
-#include "core/instruction_sets.h"
+#include "core/kernels/instruction_sets.h"
+#include "core/parallel/random.h"
 
 #include <gtest/gtest.h>
 

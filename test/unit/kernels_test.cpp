@@ -1,10 +1,10 @@
-#include "core/full_quadric_fit.h"
-#include "core/instruction_sets.h"
-#include "core/moment_sums.h"
-#include "core/quadric_curvatures.h"
-#include "core/quadric_fits.h"
-#include "core/window_scan.h"
-#include "grasp_affordances/curvature.h"
+#include "core/fit/curvature.h"
+#include "core/fit/full_quadric_fit.h"
+#include "core/kernels/instruction_sets.h"
+#include "core/kernels/moment_sums.h"
+#include "core/kernels/quadric_curvatures.h"
+#include "core/kernels/quadric_fits.h"
+#include "core/kernels/window_scan.h"
 #include "support/points.h"
 
 #include <gtest/gtest.h>

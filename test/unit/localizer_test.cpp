@@ -1,6 +1,6 @@
 #include "grasp_affordances/localizer.h"
 
-#include "core/instruction_sets.h"
+#include "core/kernels/instruction_sets.h"
 #include "evaluation/judge.h"
 #include "simulation/tableware.h"
 #include "support/points.h"

@@ -1,6 +1,6 @@
-#include "grasp_affordances/neighborhoods.h"
+#include "core/neighborhoods/neighborhoods.h"
 
-#include "core/thread_team.h"
+#include "core/parallel/thread_team.h"
 #include "io/bag.h"
 #include "io/pcd.h"
 #include "support/points.h"

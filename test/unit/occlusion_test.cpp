@@ -1,7 +1,7 @@
-#include "grasp_affordances/occlusion.h"
+#include "core/neighborhoods/occlusion.h"
 
-#include "core/window_search.h"
-#include "grasp_affordances/free_space.h"
+#include "core/neighborhoods/window_search.h"
+#include "core/shell/free_space.h"
 #include "support/points.h"
 #include "support/scenes.h"
 

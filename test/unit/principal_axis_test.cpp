@@ -1,6 +1,6 @@
-#include "grasp_affordances/principal_axis.h"
+#include "core/fit/principal_axis.h"
 
-#include "core/covariance.h"
+#include "core/fit/covariance.h"
 #include "support/points.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "grasp_affordances/quadric.h"
+#include "core/fit/quadric.h"
 
 #include "io/pcd.h"
 #include "support/points.h"

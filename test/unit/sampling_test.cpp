@@ -1,8 +1,7 @@
-#include "grasp_affordances/sampling.h"
+#include "core/views/sampling.h"
 
-#include "grasp_affordances/random.h"
-
-#include "core/point_screen.h"
+#include "core/parallel/random.h"
+#include "core/views/point_screen.h"
 
 #include <gtest/gtest.h>
 

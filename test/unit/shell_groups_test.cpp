@@ -1,4 +1,4 @@
-#include "core/shell_groups.h"
+#include "core/handles/shell_groups.h"
 
 #include "support/points.h"
 

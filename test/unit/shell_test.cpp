@@ -1,6 +1,5 @@
-#include "grasp_affordances/shell.h"
-#include "grasp_affordances/free_space.h"
-
+#include "core/shell/shell.h"
+#include "core/shell/free_space.h"
 #include "support/points.h"
 
 #include <gtest/gtest.h>

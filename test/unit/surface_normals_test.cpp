@@ -1,4 +1,4 @@
-#include "core/surface_normals.h"
+#include "core/fit/surface_normals.h"
 
 #include "support/points.h"
 

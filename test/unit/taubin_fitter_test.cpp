@@ -1,9 +1,8 @@
-#include "grasp_affordances/quadric.h"
+#include "core/fit/quadric.h"
+#include "io/pcd.h"
 #include "support/points.h"
 #include "support/recordings.h"
 #include "support/scenes.h"
-
-#include "io/pcd.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "core/std_team.h"
-#include "core/tbb_team.h"
+#include "core/parallel/std_team.h"
+#include "core/parallel/tbb_team.h"
 
 #include <gtest/gtest.h>
 

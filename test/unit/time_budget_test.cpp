@@ -1,4 +1,4 @@
-#include "core/time_budget.h"
+#include "core/parallel/time_budget.h"
 
 #include "grasp_affordances/localizer.h"
 #include "support/scenes.h"

@@ -1,4 +1,4 @@
-#include "core/view_agreement.h"
+#include "core/views/view_agreement.h"
 
 #include "simulation/camera_orbit.h"
 #include "simulation/placement.h"

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "core/fit/quadric.h"
+#include "core/neighborhoods/neighborhoods.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace grasp_affordances
+{
+
+/// Principal curvature of larger magnitude at a point of a quadric.
+struct PrincipalCurvature
+{
+  double value = 0.0;  ///< in the inverse of the quadric's local unit; positive where the surface bends away from its
+                       ///< gradient's side (a sphere whose gradient points outwards is positive)
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit tangent about which the surface curves most: the cross
+                                                    ///< product of the normal with the direction of that curvature
+};
+
+/// From the shape operator: the Hessian restricted to the tangent plane, over the gradient's norm (paper, section
+/// III-B). `x` in local coordinates; the gradient there must not vanish. Where both curvatures are equal (a sphere) the
+/// axis is some tangent.
+PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vector3d& x);
+
+/// The larger principal curvature over a neighborhood.
+struct NeighborhoodCurvature
+{
+  double median = 0.0;                              ///< 1/m, of the magnitudes
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, curvature axis at the median point
+  bool concave = false;  ///< at most of the points the centre of curvature lies on the sensor's side
+};
+
+/// Working memory of medianCurvature, one per thread.
+struct CurvatureScratch
+{
+  Eigen::Array<double, Eigen::Dynamic, 5> points;  // local x, y, z, squared curvature, and that again to be sorted
+};
+
+/// Puts evenly spaced points of the neighborhood (`count` of them, all where there are fewer; the first one drawn with
+/// `random_bits`) onto the quadric by one Newton step along the gradient, discards those that leave the neighborhood,
+/// and takes the median of the larger principal curvature's magnitude. Normals are turned towards `sensor` (m, cloud's
+/// frame) before signs are judged. Empty where no point is left.
+/// @param seen  how many of the points, the first ones, that sensor saw, if not all: only these are drawn from
+std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, const Neighborhood& neighborhood,
+                                                     const Eigen::Vector3d& sensor, std::size_t count,
+                                                     std::uint64_t random_bits, CurvatureScratch& scratch,
+                                                     std::size_t seen = std::numeric_limits<std::size_t>::max());
+
+}  // namespace grasp_affordances

@@ -1,0 +1,133 @@
+#include "core/views/prepared_cloud.h"
+
+#include "core/kernels/measured_kernels.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+SphereView unseen(const Neighborhood& neighborhood)
+{
+  SphereSurvey survey{};
+  survey.points = neighborhood.size();
+  return {neighborhood.center, neighborhood.radius, PixelWindow{}, survey};
+}
+
+}  // namespace
+
+void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const Eigen::Isometry3d& T_workspace_cloud,
+                           ThreadTeam& team)
+{
+  cloud = &new_cloud;
+  image.reset();
+  search = nullptr;
+  sensor.setZero();
+  warnings.clear();
+  screen.clear();
+  hidden_search.reset();
+  limited_ = false;
+  listMeasured();
+  if (measured.empty()) {
+    warnings.emplace_back(cloud->size() == 0 ? "nothing to localize: the cloud is empty"
+                                             : "nothing to localize: all points are NaN, zero or infinite");
+    return;
+  }
+  if (allCoincide()) {
+    warnings.emplace_back("nothing to localize: all measured points coincide");
+    return;
+  }
+
+  findWorkspace(config.workspace, T_workspace_cloud, team);
+  std::string warning;
+  image = RangeImage::create(*cloud, warning, &team);
+  if (image) {
+    search = &window_search_.emplace(*image, measured.size());
+  } else {
+    sensor = cloud->sensor_origin.cast<double>();
+    tree_search_ = makeTreeSearch(*cloud);
+    search = tree_search_.get();
+    if (config.occlusion.filter || config.shell.require_observed_gap || config.sampling.screen ||
+        config.shell.continue_surfaces || config.shell.min_coverage > 0.0) {
+      warning +=
+          "; without a range image occlusion and observed free space are not judged, nor is coverage; no surfaces "
+          "are continued, and samples are drawn from all points";
+    }
+  }
+  if (!warning.empty()) {
+    warnings.push_back(warning);
+  }
+  if (image && config.sampling.screen) {
+    screen.update(*image, config.hand, static_cast<std::size_t>(config.sampling.samples), config.sampling.seed, team,
+                  limited_ ? is_within_.data() : nullptr);
+  }
+  if (image && config.shell.continue_surfaces) {
+    constexpr double kWidestBridge = 8.0;  // capture radii: what a hand can grasp, and the shadow beside it
+    hidden.update(*image, kWidestBridge * config.hand.capture_radius, team);
+    hidden_image = image->withCloud(hidden.cloud());
+    hidden_search.emplace(*hidden_image, 0);
+  }
+}
+
+void PreparedCloud::listMeasured()
+{
+  measured.resize(countMeasured(cloud->x.data(), cloud->size()));
+  grasp_affordances::listMeasured(cloud->x.data(), cloud->size(), measured.data(), measured.size());
+}
+
+bool PreparedCloud::allCoincide() const
+{
+  const Eigen::Vector3f first = cloud->point(measured.front());
+  return std::all_of(measured.begin(), measured.end(), [&](std::uint32_t i) { return cloud->point(i) == first; });
+}
+
+void PreparedCloud::findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud,
+                                  ThreadTeam& team)
+{
+  constexpr double kNoLimit = WorkspaceConfig::kNoLimit;
+  const Eigen::Array3d lower(workspace.min_x, workspace.min_y, workspace.min_z);
+  const Eigen::Array3d upper(workspace.max_x, workspace.max_y, workspace.max_z);
+  limited_ = (lower > -kNoLimit).any() || (upper < kNoLimit).any();
+  if (!limited_) {
+    return;
+  }
+  is_within_.resize(cloud->size());
+  const auto isWithin = [&](std::size_t i) {
+    const Eigen::Array3d point = T_workspace_cloud * cloud->point(i).cast<double>();
+    return ((point >= lower || lower <= -kNoLimit) && (point <= upper || upper >= kNoLimit)).all();
+  };
+  constexpr std::size_t kBatch = 4096;
+  team.forEach((cloud->size() + kBatch - 1) / kBatch, [&](std::size_t batch, std::size_t) {
+    for (std::size_t i = batch * kBatch; i < std::min(cloud->size(), (batch + 1) * kBatch); ++i) {
+      is_within_[i] = isWithin(i) ? 1 : 0;
+    }
+  });
+  within_.clear();
+  std::copy_if(measured.begin(), measured.end(), std::back_inserter(within_),
+               [&](std::uint32_t i) { return is_within_[i] != 0; });
+}
+
+SphereView PreparedCloud::gather(const Eigen::Vector3f& center, float radius, bool with_index,
+                                 Neighborhood& neighborhood) const
+{
+  if (const WindowSearch* window = windowSearch()) {
+    return window->gather(center, radius, with_index, neighborhood);
+  }
+  search->withinRadius(center, radius, neighborhood);
+  return unseen(neighborhood);
+}
+
+SphereView PreparedCloud::gatherNearest(const Eigen::Vector3f& center, std::size_t k, bool with_view,
+                                        Neighborhood& neighborhood) const
+{
+  search->nearest(center, k, neighborhood);
+  if (image && with_view) {
+    return viewOf(neighborhood, *image);
+  }
+  return unseen(neighborhood);
+}
+
+}  // namespace grasp_affordances

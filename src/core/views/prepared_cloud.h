@@ -1,0 +1,78 @@
+#pragma once
+
+#include "grasp_affordances/cloud.h"
+#include "grasp_affordances/config.h"
+
+#include "core/cloud/range_image.h"
+#include "core/fit/surface_normals.h"
+#include "core/neighborhoods/neighborhoods.h"
+#include "core/neighborhoods/window_search.h"
+#include "core/parallel/thread_team.h"
+#include "core/views/hidden_surfaces.h"
+#include "core/views/point_screen.h"
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grasp_affordances
+{
+
+/// One cloud, prepared for sampling: what all samples share and none changes. Keeps its memory from cloud to cloud.
+/// Neither copied nor moved, since its parts refer to one another.
+class PreparedCloud
+{
+public:
+  PreparedCloud() = default;
+  PreparedCloud(const PreparedCloud&) = delete;
+  PreparedCloud& operator=(const PreparedCloud&) = delete;
+
+  /// Prepares another cloud, which must outlive its use.
+  void update(const Cloud& cloud, const Config& config, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
+
+  /// The points within a sphere, with their indices or without, and what the sensor sees of it: of the latter no more
+  /// than their number, where there is no range image. Safe to call from many threads.
+  SphereView gather(const Eigen::Vector3f& center, float radius, bool with_index, Neighborhood& neighborhood) const;
+
+  /// The same for the k nearest points, with what the sensor sees of their sphere if asked for.
+  SphereView gatherNearest(const Eigen::Vector3f& center, std::size_t k, bool with_view,
+                           Neighborhood& neighborhood) const;
+
+  /// The points that samples are drawn from: the measured ones within the workspace.
+  const std::vector<std::uint32_t>& points() const { return limited_ ? within_ : measured; }
+
+  /// Whether samples may be drawn at a measured point.
+  bool allows(std::uint32_t point) const { return !limited_ || is_within_[point] != 0; }
+
+  /// Searches the range image; null where there is none.
+  const WindowSearch* windowSearch() const { return image && window_search_ ? &*window_search_ : nullptr; }
+
+  const Cloud* cloud = nullptr;
+  std::vector<std::uint32_t> measured;  // indices of the measured points
+  std::optional<RangeImage> image;
+  PointScreen screen;
+  const NeighborhoodSearch* search = nullptr;  // null where there is nothing to localize
+  HiddenSurfaces hidden;                       // that go on behind what the sensor saw; with an image only
+  std::optional<RangeImage> hidden_image;
+  std::optional<WindowSearch> hidden_search;         // none where no hidden surfaces are asked for
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // m, in the cloud's frame
+  SurfaceNormals normals;                            // only for the Normals variation
+  std::vector<std::string> warnings;
+
+private:
+  void listMeasured();
+  bool allCoincide() const;
+  void findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
+
+  std::optional<WindowSearch> window_search_;
+  std::unique_ptr<NeighborhoodSearch> tree_search_;
+  bool limited_ = false;                 // to a workspace
+  std::vector<std::uint32_t> within_;    // where limited, the measured points within the workspace
+  std::vector<std::uint8_t> is_within_;  // where limited, per point
+};
+
+}  // namespace grasp_affordances
