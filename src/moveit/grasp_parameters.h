@@ -1,7 +1,7 @@
 #pragma once
 
 #include "moveit/grasp_conversion.h"
-#include "nodelets/parameter_reader.h"
+#include "nodelets/parameters/parameter_reader.h"
 
 namespace grasp_affordances
 {

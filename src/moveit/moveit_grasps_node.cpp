@@ -2,7 +2,7 @@
 #include "grasp_affordances/config.h"
 #include "moveit/grasp_conversion.h"
 #include "moveit/grasp_parameters.h"
-#include "nodelets/parameter_reader.h"
+#include "nodelets/parameters/parameter_reader.h"
 
 #include <moveit_msgs/GraspPlanning.h>
 #include <ros/ros.h>

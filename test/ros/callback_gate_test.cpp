@@ -1,4 +1,4 @@
-#include "nodelets/callback_gate.h"
+#include "nodelets/roscpp/callback_gate.h"
 
 #include <gtest/gtest.h>
 

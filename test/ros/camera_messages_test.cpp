@@ -1,4 +1,4 @@
-#include "nodelets/camera_messages.h"
+#include "nodelets/cameras/camera_messages.h"
 
 #include <gtest/gtest.h>
 

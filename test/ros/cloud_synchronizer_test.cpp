@@ -1,4 +1,4 @@
-#include "nodelets/cloud_synchronizer.h"
+#include "nodelets/roscpp/cloud_synchronizer.h"
 
 #include <gtest/gtest.h>
 #include <ros/time.h>

@@ -1,4 +1,4 @@
-#include "nodelets/conversions.h"
+#include "nodelets/messages/conversions.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-#include "nodelets/hand_pose_choice.h"
+#include "nodelets/selection/hand_pose_choice.h"
 
 #include <gtest/gtest.h>
 

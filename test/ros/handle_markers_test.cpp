@@ -1,5 +1,5 @@
-#include "nodelets/handle_markers.h"
-#include "nodelets/score_color.h"
+#include "nodelets/messages/handle_markers.h"
+#include "nodelets/messages/score_color.h"
 
 #include <gtest/gtest.h>
 #include <visualization_msgs/InteractiveMarkerControl.h>

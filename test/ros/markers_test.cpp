@@ -1,5 +1,5 @@
-#include "nodelets/markers.h"
-#include "nodelets/score_color.h"
+#include "nodelets/messages/markers.h"
+#include "nodelets/messages/score_color.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

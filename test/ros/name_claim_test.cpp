@@ -1,4 +1,4 @@
-#include "nodelets/name_claim.h"
+#include "nodelets/roscpp/name_claim.h"
 
 #include <gtest/gtest.h>
 

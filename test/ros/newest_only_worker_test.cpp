@@ -1,4 +1,4 @@
-#include "nodelets/newest_only_worker.h"
+#include "nodelets/roscpp/newest_only_worker.h"
 
 #include <gtest/gtest.h>
 

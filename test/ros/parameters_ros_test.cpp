@@ -1,4 +1,4 @@
-#include "nodelets/parameters_ros.h"
+#include "nodelets/parameters/parameters_ros.h"
 
 #include <gtest/gtest.h>
 #include <xmlrpcpp/XmlRpcValue.h>

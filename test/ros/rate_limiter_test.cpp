@@ -1,4 +1,4 @@
-#include "nodelets/rate_limiter.h"
+#include "nodelets/roscpp/rate_limiter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "nodelets/reconfiguration.h"
+#include "nodelets/parameters/reconfiguration.h"
 
 #include "grasp_affordances/LocalizerConfig.h"
 #include "grasp_affordances/parameters.h"

@@ -1,4 +1,4 @@
-#include "nodelets/region_of_interest.h"
+#include "nodelets/messages/region_of_interest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "nodelets/ros_time.h"
+#include "nodelets/roscpp/ros_time.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "nodelets/simulated_camera_parameters.h"
+#include "nodelets/cameras/simulated_camera_parameters.h"
 
 #include "grasp_affordances/config.h"
 #include "simulation/scene_library.h"

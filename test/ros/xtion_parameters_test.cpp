@@ -1,4 +1,4 @@
-#include "nodelets/xtion_parameters.h"
+#include "nodelets/cameras/xtion_parameters.h"
 
 #include "grasp_affordances/config.h"
 

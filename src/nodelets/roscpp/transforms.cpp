@@ -1,0 +1,149 @@
+#include "nodelets/roscpp/transforms.h"
+
+#include "nodelets/roscpp/subscribing.h"
+
+#include <ros/console.h>
+#include <ros/duration.h>
+#include <ros/init.h>
+#include <tf2/exceptions.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+constexpr std::uint32_t kSubscriberQueue = 100;
+constexpr std::uint32_t kThreads = 1;
+constexpr std::chrono::milliseconds kShutdownPoll{50};  // nothing tells of the end of the node
+
+/// s by which the transforms of one frame may arrive out of order: several nodes may publish them. tf2 sorts them.
+constexpr double kDisorder = 0.5;
+
+/// tf2 knows no leading slash, with which older drivers and bags name their frames.
+std::string frameName(const std::string& name)
+{
+  return !name.empty() && name[0] == '/' ? name.substr(1) : name;
+}
+
+/// tf2 also takes quaternions of which few digits were given, and does not normalize them.
+Eigen::Isometry3d isometry(geometry_msgs::TransformStamped transform)
+{
+  Eigen::Quaterniond rotation;
+  tf2::fromMsg(transform.transform.rotation, rotation);
+  transform.transform.rotation = tf2::toMsg(rotation.normalized());
+  return tf2::transformToEigen(transform);
+}
+
+}  // namespace
+
+Transforms::Transforms(const ros::NodeHandle& node_handle) : node_handle_(node_handle), spinner_(kThreads, &queue_) {}
+
+Transforms::~Transforms()
+{
+  spinner_.stop();
+  const std::lock_guard<std::mutex> alone(subscribing());
+  moving_.shutdown();
+  fixed_.shutdown();
+}
+
+void Transforms::listen()
+{
+  const std::lock_guard<std::mutex> lock(listening_mutex_);
+  if (moving_) {
+    return;
+  }
+  using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
+  const auto subscribe = [&](const std::string& topic, bool fixed) {
+    ros::SubscribeOptions options;
+    options.initByFullCallbackType<const Event&>(topic, kSubscriberQueue,
+                                                 [this, fixed](const Event& event) { receive(event, fixed); });
+    options.callback_queue = &queue_;
+    return node_handle_.subscribe(options);
+  };
+  const std::lock_guard<std::mutex> alone(subscribing());
+  moving_ = subscribe("/tf", false);
+  fixed_ = subscribe("/tf_static", true);
+  spinner_.start();
+}
+
+Eigen::Isometry3d Transforms::lookup(const std::string& target_frame, const std::string& source_frame,
+                                     const ros::Time& stamp, Deadline deadline)
+{
+  const std::string target = frameName(target_frame);
+  const std::string source = frameName(source_frame);
+  if (target == source) {
+    return Eigen::Isometry3d::Identity();
+  }
+  listen();
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!source.empty() && !buffer_.canTransform(target, source, stamp)) {  // for no source nobody needs to wait
+    const auto now = std::chrono::steady_clock::now();
+    if (closed_ || ros::isShuttingDown() || now >= deadline) {
+      break;
+    }
+    changed_.wait_until(lock, std::min<Deadline>(deadline, now + kShutdownPoll));
+  }
+  try {
+    return isometry(buffer_.lookupTransform(target, source, stamp));
+  } catch (const tf2::TransformException&) {
+    throw;
+  } catch (const std::exception& error) {  // roscpp's: from the known stamps it is farther than a Duration can be
+    throw tf2::ExtrapolationException(error.what());
+  }
+}
+
+void Transforms::restart()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!restarted_) {
+    forget();
+  }
+  restarted_ = false;
+}
+
+void Transforms::close()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  closed_ = true;
+  changed_.notify_all();
+}
+
+void Transforms::receive(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool fixed)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
+    if (!leavesRoom(transform.header.stamp)) {  // tf2 adds the length of its memory
+      if (refusals_.due()) {
+        ROS_WARN_STREAM("a transform was ignored: its stamp, " << transform.header.stamp.sec
+                                                               << " s, is too large to compute with");
+      }
+      continue;
+    }
+    if (!fixed && wentBack(transform)) {
+      forget();
+      restarted_ = true;
+      wentBack(transform);  // the first of the new run
+    }
+    buffer_.setTransform(transform, event.getPublisherName(), fixed);
+  }
+  changed_.notify_all();
+}
+
+bool Transforms::wentBack(const geometry_msgs::TransformStamped& transform)
+{
+  const auto stream = streams_.try_emplace(transform.child_frame_id, ros::Duration(kDisorder)).first;
+  return stream->second.wentBack(transform.header.stamp);
+}
+
+void Transforms::forget()
+{
+  buffer_.clear();
+  streams_.clear();
+}
+
+}  // namespace grasp_affordances

@@ -1,7 +1,0 @@
-#include "nodelets/run_nodelet.h"
-
-/// The XtionNodelet in a process of its own.
-int main(int argc, char** argv)
-{
-  return grasp_affordances::runNodelet(argc, argv, "xtion", "grasp_affordances/XtionNodelet");
-}
