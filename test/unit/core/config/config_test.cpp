@@ -30,7 +30,7 @@ class Listing
 {
 public:
   std::map<std::string, std::string> values;
-  std::map<std::string, std::string> table_rows;  // of the README
+  std::map<std::string, std::string> table_rows;  // of docs/parameters.md
 
   template <typename T>
   void operator()(const char* name, const T& value, const Range<T>& range, const char* unit, const char* description)
@@ -114,11 +114,11 @@ TEST(Presets, AreValidAndPaperHasThePapersNumbers)
   EXPECT_FALSE(paper.estimation.reject_concave);
 }
 
-TEST(Readme, DocumentsEveryParameterAsItIs)
+TEST(Documentation, DescribesEveryParameterAsItIs)
 {
-  const std::string readme = textOfFile(GRASP_AFFORDANCES_SOURCE_DIR "/README.md");
+  const std::string page = textOfFile(GRASP_AFFORDANCES_SOURCE_DIR "/docs/parameters.md");
   for (const auto& row : listingOf(Config()).table_rows) {
-    EXPECT_NE(readme.find(row.second), std::string::npos) << row.second;
+    EXPECT_NE(page.find(row.second), std::string::npos) << row.second;
   }
 }
 

@@ -58,13 +58,15 @@ TEST(XtionParameters, DefaultsAreThoseOfTheYamlFile)
   EXPECT_EQ(file["diagnostic_period"].as<double>(), defaults.diagnostic_period);
 }
 
-TEST(XtionParameters, AreInTheReadmeWithTheirDefaults)
+TEST(XtionParameters, AreInTheDocumentationWithTheirDefaults)
 {
-  std::ifstream stream(GRASP_AFFORDANCES_SOURCE_DIR "/README.md");
+  std::ifstream stream(GRASP_AFFORDANCES_SOURCE_DIR "/docs/cameras.md");
   std::stringstream text;
   text << stream.rdbuf();
-  const std::string readme = text.str();
-  const std::string section = readme.substr(readme.find("### Asus Xtion"));
+  const std::string page = text.str();
+  const std::size_t begin = page.find("\n## Asus Xtion\n");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string section = page.substr(begin, page.find("\n## ", begin + 1) - begin);
   for (const auto& parameter : yamlFile()) {
     const std::string row = "\n| `" + parameter.first.as<std::string>() + "` | " + parameter.second.as<std::string>();
     EXPECT_NE(section.find(row), std::string::npos) << row;
