@@ -38,10 +38,16 @@ class Page:
         self.prose, self.blocks = self._split()
 
     def _split(self):
-        """The text without its code blocks, and these: (language, lines)."""
+        """The text without its code blocks, and these: (language, lines). An indented block follows an empty line."""
         prose, blocks, block = [], [], None
         for line in self.lines:
-            if line.startswith('```'):
+            indented = block is not None and block[0] == 'indented'
+            if indented and not line.startswith('    '):
+                blocks.append(block)
+                block = None
+            if block is None and line.startswith('    ') and prose and not prose[-1]:
+                block = ('indented', [line])
+            elif line.startswith('```'):
                 if block is None:
                     block = (line[3:].strip(), [])
                 else:
@@ -77,15 +83,12 @@ class Page:
         return [' '.join(text.split()) for text in re.findall(r'`([^`]+)`', self.prose)]
 
     def commands(self):
-        """Lines of shell blocks, those that go on joined, without comments and variables before the program."""
+        """Lines of shell blocks and of indented ones, those that go on joined, without comments."""
         for language, lines in self.blocks:
-            if language in ('sh', 'bash'):
+            if language in ('sh', 'bash', 'indented'):
                 text = re.sub(r'\\\n\s*', ' ', '\n'.join(lines))
                 for line in text.splitlines():
                     yield re.sub(r'(^|\s)#.*', '', line).strip()
-        for line in re.sub(r'\\\n\s*', ' ', self.prose).splitlines():
-            if line.startswith('    '):  # an indented block
-                yield line.strip()
 
 
 def local_faults(root, all_pages):
