@@ -1,23 +1,16 @@
 #pragma once
 
+#include "grasp_affordances/cancelled.h"
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
 
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 namespace grasp_affordances
 {
-
-/// A localization was told to end early, see Localizer::cancelWhen().
-class Cancelled : public std::runtime_error
-{
-public:
-  Cancelled() : std::runtime_error("the localization was cancelled") {}
-};
 
 /// Localizes enveloping grasp affordances in point clouds (paper, Algorithm 1).
 ///

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "grasp_affordances/localizer.h"
+#include "grasp_affordances/cancelled.h"
 
 #include <atomic>
 #include <functional>
