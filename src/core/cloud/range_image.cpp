@@ -1,7 +1,6 @@
 #include "core/cloud/range_image.h"
 
 #include "core/kernels/ray_sums.h"
-#include "core/parallel/thread_team.h"
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,8 @@
 
 #include "grasp_affordances/cloud.h"
 
+#include "core/parallel/thread_team.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -10,8 +12,6 @@
 
 namespace grasp_affordances
 {
-
-class ThreadTeam;
 
 /// Half-open rectangle of pixels: columns [u_begin, u_end), rows [v_begin, v_end).
 struct PixelWindow

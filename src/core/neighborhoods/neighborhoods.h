@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/cloud/range_image.h"
+#include "core/kernels/window_scan.h"
 
 #include <Eigen/Geometry>
 
@@ -11,9 +12,6 @@
 
 namespace grasp_affordances
 {
-
-struct PixelRows;
-struct SphereSurvey;
 
 /// The points of a cloud within a sphere, gathered into contiguous arrays, in the order of their indices.
 /// Reuse one object per thread: its memory is kept from search to search.
