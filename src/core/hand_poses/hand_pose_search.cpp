@@ -1,6 +1,7 @@
 #include "core/hand_poses/hand_pose_search.h"
 
 #include "core/cloud/lattice.h"
+#include "core/shell/shell.h"
 
 #include <algorithm>
 #include <bitset>

@@ -5,9 +5,9 @@
 
 #include "core/neighborhoods/neighborhoods.h"
 #include "core/neighborhoods/sphere_view.h"
+#include "core/neighborhoods/surroundings.h"
 #include "core/parallel/cancellation.h"
 #include "core/parallel/thread_team.h"
-#include "core/shell/shell.h"
 #include "core/views/prepared_cloud.h"
 #include "core/views/view_agreement.h"
 
