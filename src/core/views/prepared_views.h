@@ -9,7 +9,7 @@
 #include "core/parallel/cancellation.h"
 #include "core/parallel/thread_team.h"
 #include "core/views/prepared_cloud.h"
-#include "core/views/view_agreement.h"
+#include "core/views/view_comparison.h"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include "core/views/view_agreement.h"
+#include "core/views/view_comparison.h"
 
 #include <Eigen/Eigenvalues>
 
