@@ -125,30 +125,13 @@ void PreparedViews::relateViews()
 
 void PreparedViews::compareViews(ThreadTeam& team)
 {
-  comparisons_.resize(size() * (size() - 1) / 2);
-  auto comparison = comparisons_.begin();
-  for (std::size_t first = 0; first < size(); ++first) {
-    for (std::size_t second = first + 1; second < size(); ++second, ++comparison) {
-      comparison->first = first;
-      comparison->second = second;
-    }
+  compared_.clear();
+  for (const View& view : views_) {
+    compared_.push_back({view.number, view.cloud->image ? &*view.cloud->image : nullptr, view.T_common_cloud});
   }
-  team.forEach(comparisons_.size(), [this](std::size_t i, std::size_t) {
-    auto& [first, second, distance, agreement] = comparisons_[i];
-    const std::optional<RangeImage>&of_first = views_[first].cloud->image, &of_second = views_[second].cloud->image;
-    distance = of_first && of_second ? agreement.disagreement(*of_first, *of_second, transform(first, second))
-                                     : std::numeric_limits<double>::quiet_NaN();
-  });
-  for (const Comparison& compared : comparisons_) {
-    disagreement = std::fmax(disagreement, compared.disagreement);
-    constexpr double kMisplaced = 0.015;  // m; twice what exact poses were seen to cause
-    if (compared.disagreement > kMisplaced) {
-      warnings.push_back("views " + std::to_string(views_[compared.first].number) + " and " +
-                         std::to_string(views_[compared.second].number) + " place the same surfaces " +
-                         std::to_string(std::lround(1000.0 * compared.disagreement)) +
-                         " mm apart: their poses may be wrong");
-    }
-  }
+  comparison_.compare(compared_, team);
+  disagreement = comparison_.disagreement();
+  warnings.insert(warnings.end(), comparison_.warnings().begin(), comparison_.warnings().end());
 }
 
 /// What one view takes to be hidden, another may have seen through.

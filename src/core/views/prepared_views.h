@@ -101,14 +101,6 @@ private:
     std::size_t joined = 0;  // of its screened points
   };
 
-  /// Two views, and by how much they disagree (m).
-  struct Comparison
-  {
-    std::size_t first, second;
-    double disagreement;
-    ViewAgreement agreement;
-  };
-
   const std::vector<std::uint32_t>& samplePoints() const { return size() == 1 ? views_[0].cloud->points() : points_; }
   const Eigen::Isometry3d& transform(std::size_t to, std::size_t from) const { return T_[to * size() + from]; }
   Eigen::Vector3f centerIn(std::size_t view, const SamplePoint& sample) const;
@@ -128,7 +120,8 @@ private:
   std::vector<Eigen::Isometry3d> T_;              // between the views' frames: [to * size + from]
   std::vector<std::vector<OtherView>> others_;    // by view
   std::vector<std::uint32_t> points_, screened_;  // of several views, those that samples are drawn from
-  std::vector<Comparison> comparisons_;
+  std::vector<ComparedView> compared_;
+  ViewComparison comparison_;
   std::vector<Neighborhood> neighborhoods_;  // two per thread
   std::vector<SphereView> spheres_;          // of each view, per thread
 };

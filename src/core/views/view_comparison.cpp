@@ -148,4 +148,36 @@ Eigen::Isometry3d ViewAgreement::motionToFit() const
   return rigidMotion(twist, center);
 }
 
+void ViewComparison::compare(const std::vector<ComparedView>& views, ThreadTeam& team)
+{
+  pairs_.resize(views.size() * (views.size() - 1) / 2);
+  auto pair = pairs_.begin();
+  for (std::size_t first = 0; first < views.size(); ++first) {
+    for (std::size_t second = first + 1; second < views.size(); ++second, ++pair) {
+      pair->first = first;
+      pair->second = second;
+    }
+  }
+  team.forEach(pairs_.size(), [&](std::size_t i, std::size_t) {
+    Pair& compared = pairs_[i];
+    const ComparedView &first = views[compared.first], &second = views[compared.second];
+    compared.disagreement = first.image != nullptr && second.image != nullptr
+                                ? compared.agreement.disagreement(*first.image, *second.image,
+                                                                  first.T_common_view.inverse() * second.T_common_view)
+                                : std::numeric_limits<double>::quiet_NaN();
+  });
+  disagreement_ = std::numeric_limits<double>::quiet_NaN();
+  warnings_.clear();
+  for (const Pair& compared : pairs_) {
+    disagreement_ = std::fmax(disagreement_, compared.disagreement);
+    constexpr double kMisplaced = 0.015;  // m; twice what exact poses were seen to cause
+    if (compared.disagreement > kMisplaced) {
+      warnings_.push_back("views " + std::to_string(views[compared.first].number) + " and " +
+                          std::to_string(views[compared.second].number) + " place the same surfaces " +
+                          std::to_string(std::lround(1000.0 * compared.disagreement)) +
+                          " mm apart: their poses may be wrong");
+    }
+  }
+}
+
 }  // namespace grasp_affordances

@@ -1,11 +1,15 @@
 #pragma once
 
 #include "core/cloud/range_image.h"
+#include "core/parallel/thread_team.h"
 #include "core/views/surface_elements.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cstddef>
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace grasp_affordances
@@ -52,6 +56,41 @@ private:
 
   SurfaceElements first_, second_;
   std::vector<Pair> pairs_;
+};
+
+/// One view of a moment, as ViewComparison takes it.
+struct ComparedView
+{
+  std::size_t number;       ///< that warnings call it by
+  const RangeImage* image;  ///< null for a cloud without one, which is compared with no other
+  Eigen::Isometry3d T_common_view;
+};
+
+/// Compares each view of a moment with each other one. Deterministic. Keeps its memory from moment to moment; one
+/// instance serves one caller at a time.
+class ViewComparison
+{
+public:
+  /// Compares the views, the pairs shared out among the team. The images must outlive the call only.
+  void compare(const std::vector<ComparedView>& views, ThreadTeam& team);
+
+  /// The largest ViewAgreement::disagreement (m) of all pairs; NaN where no pair could be compared.
+  double disagreement() const { return disagreement_; }
+
+  /// One line for each pair whose poses are probably wrong.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+private:
+  struct Pair
+  {
+    std::size_t first, second;  // places among the views
+    double disagreement;        // m
+    ViewAgreement agreement;
+  };
+
+  std::vector<Pair> pairs_;
+  double disagreement_ = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace grasp_affordances
