@@ -100,14 +100,26 @@ struct ShellConfig
 };
 
 /// An axis-aligned box that samples are drawn in; what lies outside still counts for clearance and occlusion. Its
-/// frame is that of the cloud, or another that the caller relates to it (see Localizer). As it stands it is no limit.
+/// frame is that of the cloud, or another that the caller relates to it (see Localizer). The default box limits
+/// nothing.
 struct WorkspaceConfig
 {
-  static constexpr double kNoLimit = 100.0;  // m
+  static constexpr double kNoLimit = 100.0;  ///< m; a side of the box that is no nearer to 0 limits nothing
 
   double min_x = -kNoLimit, max_x = kNoLimit;  ///< m
   double min_y = -kNoLimit, max_y = kNoLimit;  ///< m
   double min_z = -kNoLimit, max_z = kNoLimit;  ///< m
+
+  /// Whether a lower, or an upper, side (m) of the box limits anything.
+  static constexpr bool isLowerLimit(double min) { return min > -kNoLimit; }
+  static constexpr bool isUpperLimit(double max) { return max < kNoLimit; }
+
+  /// Whether any side of the box limits anything.
+  constexpr bool isLimit() const
+  {
+    return isLowerLimit(min_x) || isUpperLimit(max_x) || isLowerLimit(min_y) || isUpperLimit(max_y) ||
+           isLowerLimit(min_z) || isUpperLimit(max_z);
+  }
 };
 
 /// How shells become handles: what a hand can close around as one, straight or bent.

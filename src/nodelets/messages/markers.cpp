@@ -200,18 +200,11 @@ Marker handsMarker(const std_msgs::Header& header, const GraspHandle& handle, co
   return marker;
 }
 
-bool isLimit(const WorkspaceConfig& box)
-{
-  const WorkspaceConfig none;
-  return box.min_x > none.min_x || box.max_x < none.max_x || box.min_y > none.min_y || box.max_y < none.max_y ||
-         box.min_z > none.min_z || box.max_z < none.max_z;
-}
-
 /// The lower and upper end of a side that is drawn: where there is no limit, somewhere beyond what is seen.
 std::array<double, 2> drawnSide(double min, double max)
 {
-  const double lower = min > -WorkspaceConfig::kNoLimit ? min : std::min(-kOpenSide, max - kOpenSide);
-  const double upper = max < WorkspaceConfig::kNoLimit ? max : std::max(kOpenSide, min + kOpenSide);
+  const double lower = WorkspaceConfig::isLowerLimit(min) ? min : std::min(-kOpenSide, max - kOpenSide);
+  const double upper = WorkspaceConfig::isUpperLimit(max) ? max : std::max(kOpenSide, min + kOpenSide);
   return {lower, upper};
 }
 
@@ -272,7 +265,7 @@ visualization_msgs::MarkerArray LocalizationMarkers::update(const std::vector<Sh
       array.markers.push_back(handsMarker(header, handle, config));
     }
   }
-  if (isLimit(config.workspace)) {
+  if (config.workspace.isLimit()) {
     std_msgs::Header workspace_header = header;
     workspace_header.frame_id = workspace_frame;
     array.markers.push_back(workspaceMarker(workspace_header, config.workspace));
