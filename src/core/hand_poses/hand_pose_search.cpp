@@ -1,6 +1,7 @@
 #include "core/hand_poses/hand_pose_search.h"
 
 #include "core/cloud/lattice.h"
+#include "core/shell/evidence.h"
 #include "core/shell/shell.h"
 
 #include <algorithm>
@@ -266,8 +267,7 @@ void HandPoseSearch::gatherAround(const Place& place, const PreparedViews& views
     const double points_to_block =
         pointThresholds(config.shell, views.spacing(view, T_view_common * place.origin)).gap_points_to_block *
         config.hand.palm_width / config.shell.clearance_length;
-    constexpr double kFewest = 2.0;  // a single point is never evidence
-    around.load_per_point = 1.0 / std::max(kFewest, points_to_block);
+    around.load_per_point = 1.0 / evidenceThreshold(points_to_block);
   }
 }
 

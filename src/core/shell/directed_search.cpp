@@ -1,6 +1,7 @@
 #include "core/shell/directed_search.h"
 
 #include "core/fit/circle.h"
+#include "core/shell/evidence.h"
 
 #include <Eigen/LU>
 
@@ -252,7 +253,7 @@ DirectedSearch::Extent DirectedSearch::clearanceExtent(const ShellBounds& shell)
 bool DirectedSearch::graspable(std::size_t slice, const ShellBounds& shell) const
 {
   const double points_to_block =
-      std::max(2.0, 2.0 * thresholds_.gap_points_to_block * slices_.thickness / config_.clearance_length);
+      evidenceThreshold(2.0 * thresholds_.gap_points_to_block * slices_.thickness / config_.clearance_length);
   const SliceCounts& counts = counts_[slice] = views_.count(slice, shell);
   const std::uint32_t inside = counts.points.inside;
   return counts.inGap() + counts.hiddenInGap() < points_to_block &&
