@@ -63,7 +63,7 @@ void SampleBlock::Remaining::pass(Stage&& stage)
 }
 
 void SampleBlock::examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-                          const PreparedViews::SamplePoint* points, SampleResult* results, const TimeBudget& budget,
+                          const PreparedViews::MeasuredPoint* points, SampleResult* results, const TimeBudget& budget,
                           const Cancellation& cancellation)
 {
   Remaining all;

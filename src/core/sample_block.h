@@ -40,7 +40,7 @@ public:
   /// results[0]. Where the budget is spent, those that are left are out of time. Cancelled, it returns early, with
   /// results that are not valid.
   void examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-               const PreparedViews::SamplePoint* points, SampleResult* results, const TimeBudget& budget,
+               const PreparedViews::MeasuredPoint* points, SampleResult* results, const TimeBudget& budget,
                const Cancellation& cancellation = Cancellation());
 
   StageTimes times;  ///< summed over the samples since it was last reset
@@ -49,7 +49,7 @@ private:
   struct Sample
   {
     std::uint64_t number;
-    PreparedViews::SamplePoint point;
+    PreparedViews::MeasuredPoint point;
     SphereView* spheres;         // by view
     Neighborhood* neighborhood;  // of those that are fitted at once
     Moments moments;

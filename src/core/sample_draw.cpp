@@ -66,7 +66,7 @@ std::size_t SampleDraw::drawRound(const PreparedViews& views, const Config& conf
       const std::size_t before = nearBefore(j);
       points_[begin + j] = nearBefore(j + 1) > before
                                ? drawNear(views, config, begin + j, static_cast<std::uint32_t>(before), around_[member])
-                               : views.samplePoint(config.sampling, uniform_ + j - before);
+                               : views.drawAnywhere(config.sampling, uniform_ + j - before);
     }
   });
   uniform_ += round - near;
@@ -84,7 +84,7 @@ void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, co
     if (!promising(results[i].outcome)) {
       continue;
     }
-    const PreparedViews::SamplePoint& sample = points_[i];
+    const PreparedViews::MeasuredPoint& sample = points_[i];
     const Eigen::Vector3d point =
         views.T_common_view(sample.view) * views[sample.view].cloud->point(sample.point).cast<double>();
     auto place = std::find_if(places_.begin(), places_.end(), [&](const Place& other) {
@@ -134,14 +134,14 @@ void SampleDraw::shareOut(std::size_t draws)
 
 /// A measured point near one of a place's samples; in the image, where there is one. @param draw  number of the draw
 /// in its round, which decides on the place
-PreparedViews::SamplePoint SampleDraw::drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
-                                                std::uint32_t draw, Neighborhood& around) const
+PreparedViews::MeasuredPoint SampleDraw::drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
+                                                  std::uint32_t draw, Neighborhood& around) const
 {
   const std::uint64_t seed = config.sampling.seed;
   const auto place =
       std::find_if(places_.begin(), places_.end(), [draw](const Place& candidate) { return draw < candidate.draws; });
   const std::uint32_t member = randomIndex(randomBits(seed, i, kStream), place->samples);
-  const PreparedViews::SamplePoint origin = points_[members_[place->first + member]];
+  const PreparedViews::MeasuredPoint origin = points_[members_[place->first + member]];
   const PreparedCloud& prepared = views[origin.view];
   const Eigen::Vector3f center = prepared.cloud->point(origin.point);
   const double half = std::sqrt(3.0) * config.sampling.spread;  // of a uniform distribution
@@ -149,7 +149,7 @@ PreparedViews::SamplePoint SampleDraw::drawNear(const PreparedViews& views, cons
     prepared.search->withinRadius(center, static_cast<float>(half), around);
     const std::uint32_t drawn =
         around.index()[randomIndex(randomBits(seed, i, kStream + 1), static_cast<std::uint32_t>(around.size()))];
-    return prepared.allows(drawn) ? PreparedViews::SamplePoint{origin.view, drawn} : origin;
+    return prepared.allows(drawn) ? PreparedViews::MeasuredPoint{origin.view, drawn} : origin;
   }
   const double half_pixels = half / prepared.image->spacing(center.z());
   const auto width = static_cast<std::int64_t>(prepared.cloud->width);

@@ -41,7 +41,7 @@ public:
   std::size_t drawRound(const PreparedViews& views, const Config& config, const SampleResult* results, ThreadTeam& team,
                         const Cancellation& cancellation = Cancellation());
 
-  const PreparedViews::SamplePoint* points() const { return points_.data(); }
+  const PreparedViews::MeasuredPoint* points() const { return points_.data(); }
 
 private:
   /// Promising samples that are near to one another.
@@ -57,12 +57,12 @@ private:
   void findPlaces(const PreparedViews& views, const Config& config, const SampleResult* results,
                   const Cancellation& cancellation);
   void shareOut(std::size_t draws);
-  PreparedViews::SamplePoint drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
-                                      std::uint32_t draw, Neighborhood& around) const;
+  PreparedViews::MeasuredPoint drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
+                                        std::uint32_t draw, Neighborhood& around) const;
 
   std::size_t size_ = 0, first_ = 0;
   std::size_t drawn_ = 0, uniform_ = 0;  // samples so far, and those among them that are drawn like the first ones
-  std::vector<PreparedViews::SamplePoint> points_;
+  std::vector<PreparedViews::MeasuredPoint> points_;
   std::vector<Place> places_;
   std::vector<std::uint32_t> place_of_, members_;  // of each sample, where it has one; samples by place
   std::vector<Neighborhood> around_;               // one per thread

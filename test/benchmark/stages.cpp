@@ -6,7 +6,7 @@
 #include "core/neighborhoods/occlusion.h"
 #include "core/parallel/random.h"
 #include "core/views/hidden_surfaces.h"
-#include "core/views/sampling.h"
+#include "core/views/point_screen.h"
 #include "grasp_affordances/point_cloud2.h"
 
 #include <benchmark/benchmark.h>

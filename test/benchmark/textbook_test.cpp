@@ -7,7 +7,7 @@
 #include "core/fit/curvature.h"
 #include "core/fit/quadric.h"
 #include "core/neighborhoods/neighborhoods.h"
-#include "core/views/sampling.h"
+#include "core/views/stratified_draw.h"
 #include "evaluation/judge.h"
 #include "grasp_affordances/localizer.h"
 #include "grasp_affordances/parameters.h"
@@ -54,7 +54,7 @@ std::vector<Neighborhood> sampledNeighborhoods(const Cloud& cloud, int count)
   std::vector<Neighborhood> neighborhoods;
   for (int i = 0; neighborhoods.size() < static_cast<std::size_t>(count); ++i) {
     Neighborhood neighborhood;
-    const std::uint32_t sample = samplePoint(measured, {}, config.sampling, static_cast<std::uint64_t>(i));
+    const std::uint32_t sample = drawStratified(measured, {}, config.sampling, static_cast<std::uint64_t>(i));
     search->withinRadius(cloud.point(sample), static_cast<float>(config.hand.capture_radius), neighborhood);
     if (neighborhood.size() >= 50) {
       neighborhoods.push_back(std::move(neighborhood));

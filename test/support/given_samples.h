@@ -8,8 +8,8 @@
 #include "core/parallel/thread_team.h"
 #include "core/parallel/time_budget.h"
 #include "core/sample_block.h"
+#include "core/views/point_screen.h"
 #include "core/views/prepared_views.h"
-#include "core/views/sampling.h"
 #include "support/points.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace grasp_affordances::test
 {
 
-using SamplePoints = std::vector<PreparedViews::SamplePoint>;
+using MeasuredPoints = std::vector<PreparedViews::MeasuredPoint>;
 
 /// Algorithm 1 from the neighborhoods on, with samples that are given rather than drawn.
 class GivenSamples
@@ -33,7 +33,7 @@ public:
     views_.update(clouds, config_, Eigen::Isometry3d::Identity(), team_);
   }
 
-  std::vector<SampleResult> examine(const SamplePoints& points)
+  std::vector<SampleResult> examine(const MeasuredPoints& points)
   {
     if (config_.estimation.estimator == Estimator::normals) {
       views_.estimateNormals(config_, points.data(), points.size(), team_);
@@ -47,7 +47,7 @@ public:
   }
 
   /// The handles of these samples, without hand poses. Their shells count the results.
-  std::vector<GraspHandle> handles(const SamplePoints& points, const std::vector<SampleResult>& results)
+  std::vector<GraspHandle> handles(const MeasuredPoints& points, const std::vector<SampleResult>& results)
   {
     std::vector<Shell> shells;
     std::vector<std::uint32_t> samples;
@@ -68,7 +68,7 @@ public:
   }
 
   /// Points of a sample's neighborhood by their indices, in ascending order. Of one cloud only.
-  std::vector<std::uint32_t> neighborhood(const PreparedViews::SamplePoint& point)
+  std::vector<std::uint32_t> neighborhood(const PreparedViews::MeasuredPoint& point)
   {
     SphereView sphere;
     views_.gather(point, config_, true, neighborhood_, &sphere, part_);
@@ -118,9 +118,9 @@ inline std::vector<std::uint32_t> somePoints(const Cloud& cloud, const Config& c
   return points;
 }
 
-inline SamplePoints samplesOf(const std::vector<std::uint32_t>& points, std::size_t view = 0)
+inline MeasuredPoints samplesOf(const std::vector<std::uint32_t>& points, std::size_t view = 0)
 {
-  SamplePoints samples;
+  MeasuredPoints samples;
   for (const std::uint32_t point : points) {
     samples.push_back({view, point});
   }

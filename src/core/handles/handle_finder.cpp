@@ -75,7 +75,7 @@ double median(std::vector<double>& values)
 
 }  // namespace
 
-void HandleFinder::find(const PreparedViews& views, const Config& config, const PreparedViews::SamplePoint* samples,
+void HandleFinder::find(const PreparedViews& views, const Config& config, const PreparedViews::MeasuredPoint* samples,
                         std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles,
                         const Cancellation& cancellation)
 {

@@ -39,7 +39,7 @@ public:
   /// The handles of the shells of one localization, the best first, without hand poses.
   /// @param samples  all points that samples were drawn at
   /// @throw Cancelled
-  void find(const PreparedViews& views, const Config& config, const PreparedViews::SamplePoint* samples,
+  void find(const PreparedViews& views, const Config& config, const PreparedViews::MeasuredPoint* samples,
             std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles,
             const Cancellation& cancellation = Cancellation());
 

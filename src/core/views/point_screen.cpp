@@ -1,7 +1,6 @@
 #include "core/views/point_screen.h"
 
 #include "core/parallel/random.h"
-#include "core/views/sampling.h"
 
 #include <algorithm>
 #include <cmath>

@@ -43,7 +43,7 @@ public:
                            Neighborhood& neighborhood) const;
 
   /// The points that samples are drawn from: the measured ones within the workspace.
-  const std::vector<std::uint32_t>& points() const { return limited_ ? within_ : measured; }
+  const std::vector<std::uint32_t>& drawablePoints() const { return limited_ ? within_ : measured; }
 
   /// Whether samples may be drawn at a measured point.
   bool allows(std::uint32_t point) const { return !limited_ || is_within_[point] != 0; }

@@ -1,7 +1,7 @@
 #include "core/views/prepared_views.h"
 
 #include "core/fit/principal_axis.h"
-#include "core/views/sampling.h"
+#include "core/views/stratified_draw.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ void PreparedViews::joinPoints()
 {
   points_.clear();
   for (const View& view : views_) {
-    const std::vector<std::uint32_t>& all = view.cloud->points();
+    const std::vector<std::uint32_t>& all = view.cloud->drawablePoints();
     std::transform(all.begin(), all.end(), std::back_inserter(points_),
                    [&](std::uint32_t point) { return view.first_point + point; });
   }
@@ -163,13 +163,13 @@ bool PreparedViews::sawThrough(std::size_t view, const Eigen::Vector3d& point, d
          image.cloud().point(*pixel).cast<double>().norm() > point.norm() + margin;
 }
 
-PreparedViews::SamplePoint PreparedViews::samplePoint(const SamplingConfig& config, std::uint64_t i) const
+PreparedViews::MeasuredPoint PreparedViews::drawAnywhere(const SamplingConfig& config, std::uint64_t i) const
 {
   const std::vector<std::uint32_t>& screened = size() == 1 ? views_[0].cloud->screen.points() : screened_;
-  return viewOf(grasp_affordances::samplePoint(samplePoints(), screened, config, i));
+  return viewOf(drawStratified(drawablePoints(), screened, config, i));
 }
 
-PreparedViews::SamplePoint PreparedViews::viewOf(std::uint32_t point) const
+PreparedViews::MeasuredPoint PreparedViews::viewOf(std::uint32_t point) const
 {
   if (size() == 1) {
     return {0, point};
@@ -186,14 +186,14 @@ bool PreparedViews::allHaveImages() const
   return std::all_of(views_.begin(), views_.end(), [](const View& view) { return view.cloud->image.has_value(); });
 }
 
-Eigen::Vector3f PreparedViews::centerIn(std::size_t view, const SamplePoint& sample) const
+Eigen::Vector3f PreparedViews::centerIn(std::size_t view, const MeasuredPoint& sample) const
 {
   const Eigen::Vector3f center = views_[sample.view].cloud->cloud->point(sample.point);
   return view == sample.view ? center
                              : Eigen::Vector3f((transform(view, sample.view) * center.cast<double>()).cast<float>());
 }
 
-std::size_t PreparedViews::look(const SamplePoint& sample, const Config& config, SphereView* spheres) const
+std::size_t PreparedViews::look(const MeasuredPoint& sample, const Config& config, SphereView* spheres) const
 {
   std::size_t points = 0;
   for (std::size_t view = 0; view < size(); ++view) {
@@ -203,8 +203,8 @@ std::size_t PreparedViews::look(const SamplePoint& sample, const Config& config,
   return points;
 }
 
-void PreparedViews::gather(const SamplePoint& sample, const Config& config, bool with_index, Neighborhood& neighborhood,
-                           SphereView* spheres, Neighborhood& part) const
+void PreparedViews::gather(const MeasuredPoint& sample, const Config& config, bool with_index,
+                           Neighborhood& neighborhood, SphereView* spheres, Neighborhood& part) const
 {
   const PreparedCloud& own = *views_[sample.view].cloud;
   const Eigen::Vector3f center = centerIn(sample.view, sample);
@@ -226,7 +226,7 @@ void PreparedViews::gather(const SamplePoint& sample, const Config& config, bool
 }
 
 /// The distance of the k-th nearest point of all views, or of the last where there are fewer.
-float PreparedViews::radiusOfNearest(const SamplePoint& sample, const Config& config, Neighborhood& joined,
+float PreparedViews::radiusOfNearest(const MeasuredPoint& sample, const Config& config, Neighborhood& joined,
                                      Neighborhood& part) const
 {
   const auto k = static_cast<std::size_t>(config.neighborhood.k);
@@ -259,7 +259,7 @@ bool PreparedViews::occluded(const OcclusionConfig& config, const SphereView* sp
 
 /// Calls visit(view, begin, count) for the points of a gathered neighborhood that each view contributed.
 template <typename Visitor>
-void PreparedViews::visitParts(const SamplePoint& sample, const SphereView* spheres, Visitor&& visit) const
+void PreparedViews::visitParts(const MeasuredPoint& sample, const SphereView* spheres, Visitor&& visit) const
 {
   std::size_t begin = spheres[sample.view].survey.points;
   visit(sample.view, std::size_t{0}, begin);
@@ -271,7 +271,7 @@ void PreparedViews::visitParts(const SamplePoint& sample, const SphereView* sphe
   }
 }
 
-std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const SamplePoint& sample, const Neighborhood& neighborhood,
+std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const MeasuredPoint& sample, const Neighborhood& neighborhood,
                                                           const SphereView* spheres) const
 {
   if (size() == 1) {
@@ -287,7 +287,7 @@ std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const SamplePoint& sam
 }
 
 /// Those of all points in the neighborhoods of the samples that are not occluded.
-void PreparedViews::estimateNormals(const Config& config, const SamplePoint* samples, std::size_t count,
+void PreparedViews::estimateNormals(const Config& config, const MeasuredPoint* samples, std::size_t count,
                                     ThreadTeam& team, const Cancellation& cancellation)
 {
   neighborhoods_.resize(2 * team.size());
@@ -298,7 +298,7 @@ void PreparedViews::estimateNormals(const Config& config, const SamplePoint* sam
     }
     Neighborhood& neighborhood = neighborhoods_[2 * member];
     SphereView* spheres = &spheres_[member * size()];
-    const SamplePoint& sample = samples[i];
+    const MeasuredPoint& sample = samples[i];
     gather(sample, config, true, neighborhood, spheres, neighborhoods_[2 * member + 1]);
     if (!config.occlusion.filter || !occluded(config.occlusion, spheres)) {
       visitParts(sample, spheres, [&](std::size_t view, std::size_t begin, std::size_t count) {

@@ -29,8 +29,8 @@ namespace grasp_affordances
 class PreparedViews
 {
 public:
-  /// A measured point that is drawn as a sample.
-  struct SamplePoint
+  /// A measured point of one of the views.
+  struct MeasuredPoint
   {
     std::size_t view;     ///< that measured it
     std::uint32_t point;  ///< its index in that view's cloud
@@ -48,15 +48,15 @@ public:
   std::uint32_t firstPoint(std::size_t view) const { return views_[view].first_point; }
 
   /// False where there is nothing to draw from.
-  bool hasSamples() const { return !views_.empty() && !samplePoints().empty(); }
-  SamplePoint samplePoint(const SamplingConfig& config, std::uint64_t i) const;
+  bool hasSamples() const { return !views_.empty() && !drawablePoints().empty(); }
+  MeasuredPoint drawAnywhere(const SamplingConfig& config, std::uint64_t i) const;
 
   /// The point of this number, where the points of all clouds are counted, one cloud after the other.
-  SamplePoint viewOf(std::uint32_t point) const;
+  MeasuredPoint viewOf(std::uint32_t point) const;
 
   /// Estimates, for the Normals variation, the surface normals that these samples need and that are not known yet.
   /// @throw Cancelled
-  void estimateNormals(const Config& config, const SamplePoint* samples, std::size_t count, ThreadTeam& team,
+  void estimateNormals(const Config& config, const MeasuredPoint* samples, std::size_t count, ThreadTeam& team,
                        const Cancellation& cancellation = Cancellation());
 
   /// Whether all views are range images.
@@ -65,20 +65,20 @@ public:
   /// What each view (spheres[view]) sees of a sample's neighborhood, which must be all points within a sphere. Takes
   /// less time than gather(). Only where all views are range images.
   /// @return the number of points in the sphere
-  std::size_t look(const SamplePoint& sample, const Config& config, SphereView* spheres) const;
+  std::size_t look(const MeasuredPoint& sample, const Config& config, SphereView* spheres) const;
 
   /// A sample's neighborhood in its view's frame, and what each view sees of it. The points of the sample's view come
   /// first, then those of each other view; their indices, if asked for, are those in their own clouds. The k nearest
   /// points in several views are all points in the sphere that holds them.
   /// @param part  working memory
-  void gather(const SamplePoint& sample, const Config& config, bool with_index, Neighborhood& neighborhood,
+  void gather(const MeasuredPoint& sample, const Config& config, bool with_index, Neighborhood& neighborhood,
               SphereView* spheres, Neighborhood& part) const;
 
   /// Whether none of the views that have points in a neighborhood sees it unoccluded.
   bool occluded(const OcclusionConfig& config, const SphereView* spheres) const;
 
   /// Axis of the Normals variation, in the frame of the sample's view.
-  std::optional<Eigen::Vector3d> normalsAxis(const SamplePoint& sample, const Neighborhood& neighborhood,
+  std::optional<Eigen::Vector3d> normalsAxis(const MeasuredPoint& sample, const Neighborhood& neighborhood,
                                              const SphereView* spheres) const;
 
   /// Distance (m) between neighboring points at a point of a view; 0 without a range image.
@@ -101,13 +101,16 @@ private:
     std::size_t joined = 0;  // of its screened points
   };
 
-  const std::vector<std::uint32_t>& samplePoints() const { return size() == 1 ? views_[0].cloud->points() : points_; }
+  const std::vector<std::uint32_t>& drawablePoints() const
+  {
+    return size() == 1 ? views_[0].cloud->drawablePoints() : points_;
+  }
   const Eigen::Isometry3d& transform(std::size_t to, std::size_t from) const { return T_[to * size() + from]; }
-  Eigen::Vector3f centerIn(std::size_t view, const SamplePoint& sample) const;
-  float radiusOfNearest(const SamplePoint& sample, const Config& config, Neighborhood& joined,
+  Eigen::Vector3f centerIn(std::size_t view, const MeasuredPoint& sample) const;
+  float radiusOfNearest(const MeasuredPoint& sample, const Config& config, Neighborhood& joined,
                         Neighborhood& part) const;
   template <typename Visitor>
-  void visitParts(const SamplePoint& sample, const SphereView* spheres, Visitor&& visit) const;
+  void visitParts(const MeasuredPoint& sample, const SphereView* spheres, Visitor&& visit) const;
   void joinPoints();
   void joinScreened();
   void relateViews();

@@ -6,7 +6,7 @@
 #include "core/sample_block.h"
 #include "core/sample_draw.h"
 #include "core/views/prepared_views.h"
-#include "core/views/sampling.h"
+#include "core/views/stratified_draw.h"
 #include "simulation/camera_orbit.h"
 #include "support/points.h"
 #include "support/scenes.h"
@@ -30,7 +30,7 @@ namespace
 {
 
 using Pose = Eigen::Isometry3d;
-using SamplePoint = PreparedViews::SamplePoint;
+using MeasuredPoint = PreparedViews::MeasuredPoint;
 
 const Cloud& table()
 {
@@ -194,7 +194,7 @@ TEST(ImportanceSampling, TakesTheFirstShareInTheFirstRoundAndAllInThree)
   EXPECT_EQ(Drawing(table(), config).rounds, std::vector<std::size_t>{1000});
 }
 
-TEST(ImportanceSampling, SwitchedOffDrawsWhatSamplePointDraws)
+TEST(ImportanceSampling, SwitchedOffDrawsFromStrata)
 {
   for (const bool screen : {false, true}) {
     Config config;
@@ -203,8 +203,8 @@ TEST(ImportanceSampling, SwitchedOffDrawsWhatSamplePointDraws)
     config.sampling.samples = 500;
     const Drawing drawing(table(), config);
     for (std::size_t i = 0; i < 500; ++i) {
-      ASSERT_EQ(drawing.draw.points()[i].point,
-                samplePoint(drawing.views[0].points(), drawing.views[0].screen.points(), config.sampling, i));
+      ASSERT_EQ(drawing.draw.points()[i].point, drawStratified(drawing.views[0].drawablePoints(),
+                                                               drawing.views[0].screen.points(), config.sampling, i));
     }
   }
 }
@@ -276,7 +276,7 @@ TEST(ImportanceSampling, DrawsMeasuredPointsOfAllViews)
   std::size_t begin = 0;
   for (const std::size_t end : drawing.rounds) {
     const auto of_first = std::count_if(drawing.draw.points() + begin, drawing.draw.points() + end,
-                                        [](const SamplePoint& sample) { return sample.view == 0; });
+                                        [](const MeasuredPoint& sample) { return sample.view == 0; });
     const double share = static_cast<double>(of_first) / static_cast<double>(end - begin);
     EXPECT_GT(share, 0.25) << "samples " << begin << " to " << end;
     EXPECT_LT(share, 0.75) << "samples " << begin << " to " << end;
@@ -332,7 +332,7 @@ TEST(ImportanceSampling, StaysNearTheSamplesThatItStartsFrom)
   for (std::size_t i = 200; i < 400; ++i) {
     const auto end = drawing.draw.points() + (i < drawing.rounds[1] ? 200 : drawing.rounds[1]);
     again += std::any_of(drawing.draw.points(), end,
-                         [&](const SamplePoint& sample) { return sample.point == drawing.draw.points()[i].point; });
+                         [&](const MeasuredPoint& sample) { return sample.point == drawing.draw.points()[i].point; });
   }
   EXPECT_GT(again, 50U);
 }

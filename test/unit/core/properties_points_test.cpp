@@ -83,7 +83,7 @@ TEST(Properties, PointsFarAwayChangeNothing)
         somePoints(frame.cloud, property.config, property.samples, property.random);
     std::vector<std::uint32_t> from;
     const Cloud cloud = unorganized(frame.cloud, from);
-    const SamplePoints given = samplesOf(placesIn(from, points));
+    const MeasuredPoints given = samplesOf(placesIn(from, points));
     Cloud more = cloud;
     more.reset(cloud.width + 1000, 1);
     for (std::size_t i = 0; i < more.size(); ++i) {

@@ -71,7 +71,7 @@ struct Growth
   std::vector<SampleResult> expected, actual;
   double factor;
 
-  Growth(const Cloud& cloud, const Config& config, const SamplePoints& given, double by) : factor(by)
+  Growth(const Cloud& cloud, const Config& config, const MeasuredPoints& given, double by) : factor(by)
   {
     const Cloud larger = scaled(cloud, factor);
     expected = GivenSamples(alone(cloud), config).examine(given);

@@ -218,7 +218,7 @@ struct Moment
     ThreadTeam team(1);
     views.update(clouds, config, Pose::Identity(), team);
     for (std::uint32_t i = 0; i < result.sampled; ++i) {
-      samples.push_back(views.samplePoint(config.sampling, i));
+      samples.push_back(views.drawAnywhere(config.sampling, i));
     }
   }
 
@@ -243,7 +243,7 @@ struct Moment
   Config config;
   Localization result;
   PreparedViews views;
-  std::vector<PreparedViews::SamplePoint> samples;
+  std::vector<PreparedViews::MeasuredPoint> samples;
   HandleFinder finder;
 };
 
