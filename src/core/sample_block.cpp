@@ -173,10 +173,11 @@ void SampleBlock::estimateCurvatureAxes(Remaining& samples, const PreparedViews&
     if (!sample.fit) {
       return Outcome::degenerate;
     }
-    const auto curvature =
-        medianCurvature(sample.fit->quadric, *sample.neighborhood, views[sample.point.view].sensor,
-                        static_cast<std::size_t>(config.estimation.curvature_points),
-                        randomBits(config.sampling.seed, sample.number, 1), curvature_scratch_, sample.ownPoints());
+    const auto curvature = medianCurvature(sample.fit->quadric, *sample.neighborhood,
+                                           {views[sample.point.view].sensor, sample.ownPoints()},
+                                           {static_cast<std::size_t>(config.estimation.curvature_points),
+                                            randomBits(config.sampling.seed, sample.number, 1)},
+                                           curvature_scratch_);
     if (!curvature) {
       return Outcome::degenerate;
     }

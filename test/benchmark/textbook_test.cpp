@@ -78,7 +78,7 @@ TEST(Textbook, FitsTheSameToTheSamePoints)
     const auto all = static_cast<int>(neighborhood.size());  // of the points, so that none is drawn
     const auto curvature = textbook::medianCurvature(*quadric, points, all, random);
     const auto expected =
-        medianCurvature(fit->quadric, neighborhood, Eigen::Vector3d::Zero(), neighborhood.size(), 0, scratch);
+        medianCurvature(fit->quadric, neighborhood, {Eigen::Vector3d::Zero()}, {neighborhood.size(), 0}, scratch);
     ASSERT_TRUE(curvature && expected);
     EXPECT_NEAR(curvature->magnitude / neighborhood.radius, expected->median, 1e-6 / neighborhood.radius);
     EXPECT_LT(lineAngle(curvature->axis, expected->axis), 1e-4);

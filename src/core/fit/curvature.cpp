@@ -78,17 +78,16 @@ PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vecto
 }
 
 std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, const Neighborhood& neighborhood,
-                                                     const Eigen::Vector3d& sensor, std::size_t count,
-                                                     std::uint64_t random_bits, CurvatureScratch& scratch,
-                                                     std::size_t seen)
+                                                     const SeenFrom& seen, const EvenDraw& draw,
+                                                     CurvatureScratch& scratch)
 {
-  const std::size_t n = std::min(seen, neighborhood.size()), drawn = std::min(count, n);
+  const std::size_t n = std::min(seen.points, neighborhood.size()), drawn = std::min(draw.count, n);
   if (drawn == 0) {
     return std::nullopt;
   }
-  drawPoints(quadric, neighborhood, n, drawn, randomIndex(random_bits, static_cast<std::uint32_t>(n)), scratch);
+  drawPoints(quadric, neighborhood, n, drawn, randomIndex(draw.random_bits, static_cast<std::uint32_t>(n)), scratch);
   const auto column = [&](Eigen::Index k) { return scratch.points.col(k).data(); };
-  const Eigen::Vector3d local_sensor = quadric.toLocal(sensor);
+  const Eigen::Vector3d local_sensor = quadric.toLocal(seen.sensor);
   const CurvatureCounts counts = quadricCurvatures(coefficients(quadric), local_sensor.data(), drawn,
                                                    {column(0), column(1), column(2), column(3)});
   if (counts.valid == 0) {

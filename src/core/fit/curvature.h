@@ -41,14 +41,26 @@ struct CurvatureScratch
   Eigen::Array<double, Eigen::Dynamic, 5> points;  // local x, y, z, squared curvature, and that again to be sorted
 };
 
-/// Puts evenly spaced points of the neighborhood (`count` of them, all where there are fewer; the first one drawn with
-/// `random_bits`) onto the quadric by one Newton step along the gradient, discards those that leave the neighborhood,
-/// and takes the median of the larger principal curvature's magnitude. Normals are turned towards `sensor` (m, cloud's
-/// frame) before signs are judged. Empty where no point is left.
-/// @param seen  how many of the points, the first ones, that sensor saw, if not all: only these are drawn from
+/// The sensor that saw the first points of a neighborhood.
+struct SeenFrom
+{
+  Eigen::Vector3d sensor;                                        ///< m, in the cloud's frame
+  std::size_t points = std::numeric_limits<std::size_t>::max();  ///< number of them; all, where there are fewer
+};
+
+/// Evenly spaced points that are drawn from a list.
+struct EvenDraw
+{
+  std::size_t count;          ///< all, where there are fewer
+  std::uint64_t random_bits;  ///< decide which is the first
+};
+
+/// Draws from those points of the neighborhood that the sensor saw. Puts each onto the quadric by one Newton step along
+/// the gradient, discards those that leave the neighborhood, and takes the median of the larger principal curvature's
+/// magnitude (paper, section III-B). Normals are turned towards the sensor before signs are judged. Empty where no
+/// point is left.
 std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, const Neighborhood& neighborhood,
-                                                     const Eigen::Vector3d& sensor, std::size_t count,
-                                                     std::uint64_t random_bits, CurvatureScratch& scratch,
-                                                     std::size_t seen = std::numeric_limits<std::size_t>::max());
+                                                     const SeenFrom& seen, const EvenDraw& draw,
+                                                     CurvatureScratch& scratch);
 
 }  // namespace grasp_affordances
