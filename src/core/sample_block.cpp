@@ -62,18 +62,19 @@ void SampleBlock::Remaining::pass(Stage&& stage)
   size_ = kept;
 }
 
-void SampleBlock::examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-                          const PreparedViews::MeasuredPoint* points, SampleResult* results, const TimeBudget& budget,
-                          const Cancellation& cancellation)
+void SampleBlock::examine(const SampleContext& context, const SampleSpan& span)
 {
+  const PreparedViews& views = context.views;
+  const Config& config = context.config;
+  const TimeBudget& budget = context.budget;
   Remaining all;
   spheres_.resize(kSamples * views.size());
-  for (std::uint64_t i = begin; i < end; ++i) {
-    Sample& sample = samples_[i - begin];
-    sample.number = i;
-    sample.point = points[i - begin];
-    sample.spheres = &spheres_[(i - begin) * views.size()];
-    sample.result = &results[i - begin];
+  for (std::size_t i = 0; i < span.count; ++i) {
+    Sample& sample = samples_[i];
+    sample.number = span.first + i;
+    sample.point = span.points[i];
+    sample.spheres = &spheres_[i * views.size()];
+    sample.result = &span.results[i];
     sample.result->outcome = Outcome::shell;
     all.add(sample);
   }
@@ -85,7 +86,7 @@ void SampleBlock::examine(const PreparedViews& views, const Config& config, std:
     look(all, views, config, budget);
     filterOccluded(all, views, config);
   }
-  for (std::size_t first = 0; first < all.size() && !cancellation.wanted(); first += kFittedAtOnce) {
+  for (std::size_t first = 0; first < all.size() && !context.cancellation.wanted(); first += kFittedAtOnce) {
     Remaining samples;
     for (std::size_t i = first; i < std::min(first + kFittedAtOnce, all.size()); ++i) {
       all[i].neighborhood = &neighborhoods_[i - first];

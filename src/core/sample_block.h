@@ -29,19 +29,35 @@ struct SampleResult
   Shell shell;  // set where the outcome is a shell
 };
 
-/// The body of Algorithm 1's loop, for a block of samples at a time: each stage is done for all that are left before
-/// the next, since quadrics are fitted several at once. Keeps its working memory: one instance per thread.
+/// What all samples of a localization share.
+struct SampleContext
+{
+  const PreparedViews& views;
+  const Config& config;
+  const TimeBudget& budget;
+  const Cancellation& cancellation;
+};
+
+/// Samples that follow one another.
+struct SampleSpan
+{
+  std::uint64_t first;  ///< number of the first one in the localization: what it draws at random depends on that
+  std::size_t count;
+  const PreparedViews::MeasuredPoint* points;  ///< where they are; one for each
+  SampleResult* results;                       ///< where they end; one for each
+};
+
+/// The body of Algorithm 1's loop, for a block of samples at a time. Each stage is done for all samples that are left
+/// before the next stage begins, since several quadrics are fitted at once. Keeps its working memory: one instance per
+/// thread.
 class SampleBlock
 {
 public:
   static constexpr std::size_t kSamples = 64;
 
-  /// Examines the samples [begin, end), at most kSamples. The first is drawn at points[0], its result goes to
-  /// results[0]. Where the budget is spent, those that are left are out of time. Cancelled, it returns early, with
-  /// results that are not valid.
-  void examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-               const PreparedViews::MeasuredPoint* points, SampleResult* results, const TimeBudget& budget,
-               const Cancellation& cancellation = Cancellation());
+  /// Examines at most kSamples samples and writes their results. Once the budget is spent, the samples that are left
+  /// end as out of time. Once the localization is cancelled, it returns early, and the results are not valid.
+  void examine(const SampleContext& context, const SampleSpan& span);
 
   StageTimes times;  ///< summed over the samples since it was last reset
 

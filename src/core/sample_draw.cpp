@@ -38,8 +38,8 @@ void SampleDraw::start(const PreparedViews& views, const Config& config)
     first_ =
         std::max<std::size_t>(1, static_cast<std::size_t>(config.sampling.first_share * static_cast<double>(size_)));
   }
-  drawn_ = 0;
   uniform_ = 0;
+  round_ends_.clear();
   points_.resize(size_);
   place_of_.resize(size_);
 }
@@ -47,17 +47,19 @@ void SampleDraw::start(const PreparedViews& views, const Config& config)
 std::size_t SampleDraw::drawRound(const PreparedViews& views, const Config& config, const SampleResult* results,
                                   ThreadTeam& team, const Cancellation& cancellation)
 {
-  const std::size_t begin = drawn_;
+  const std::size_t begin = drawn();
+  if (begin == size_) {
+    return begin;
+  }
+  std::size_t end = first_;
   places_.clear();
-  if (begin == 0) {
-    drawn_ = first_;
-  } else if (begin < size_) {
+  if (begin > 0) {
     findPlaces(views, config, results, cancellation);
-    drawn_ = std::min(size_, begin + (size_ - first_ + kLaterRounds - 1) / kLaterRounds);
-    shareOut(static_cast<std::size_t>((1.0 - config.sampling.uniform_share) * static_cast<double>(drawn_ - begin)));
+    end = std::min(size_, begin + (size_ - first_ + kLaterRounds - 1) / kLaterRounds);
+    shareOut(static_cast<std::size_t>((1.0 - config.sampling.uniform_share) * static_cast<double>(end - begin)));
   }
   // Draws near places and others take turns.
-  const std::size_t round = drawn_ - begin, near = places_.empty() ? 0 : places_.back().draws;
+  const std::size_t round = end - begin, near = places_.empty() ? 0 : places_.back().draws;
   const auto nearBefore = [&](std::size_t place_in_round) { return place_in_round * near / round; };
   around_.resize(team.size());
   constexpr std::size_t kBatch = 64;
@@ -70,7 +72,8 @@ std::size_t SampleDraw::drawRound(const PreparedViews& views, const Config& conf
     }
   });
   uniform_ += round - near;
-  return drawn_;
+  round_ends_.push_back(end);
+  return end;
 }
 
 /// Of the samples drawn so far.
@@ -78,7 +81,7 @@ void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, co
                             const Cancellation& cancellation)
 {
   const double reach = config.hand.capture_radius;
-  for (std::size_t i = 0; i < drawn_; ++i) {
+  for (std::size_t i = 0; i < drawn(); ++i) {
     cancellation.check();
     place_of_[i] = kNoPlace;
     if (!promising(results[i].outcome)) {
@@ -104,7 +107,7 @@ void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, co
     place.samples = 0;
   }
   members_.resize(members);
-  for (std::size_t i = 0; i < drawn_; ++i) {
+  for (std::size_t i = 0; i < drawn(); ++i) {
     if (place_of_[i] != kNoPlace) {
       Place& place = places_[place_of_[i]];
       members_[place.first + place.samples++] = static_cast<std::uint32_t>(i);

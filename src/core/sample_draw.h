@@ -35,13 +35,18 @@ public:
   /// Samples of all rounds.
   std::size_t size() const { return size_; }
 
-  /// Draws the next round. @param results  of the samples of the rounds before
-  /// @return the number of samples drawn by then: the same as before where all rounds are over
+  /// Draws the next round; nothing, where all rounds are over.
+  /// @param results  of the samples that were drawn before, in their order
+  /// @return the number of samples that are drawn now
   /// @throw Cancelled
   std::size_t drawRound(const PreparedViews& views, const Config& config, const SampleResult* results, ThreadTeam& team,
                         const Cancellation& cancellation = Cancellation());
 
+  /// The points, in the order of the samples: size() of them, of which those drawn so far are valid.
   const PreparedViews::MeasuredPoint* points() const { return points_.data(); }
+
+  /// By round, the number of samples that were drawn when it ended.
+  const std::vector<std::size_t>& roundEnds() const { return round_ends_; }
 
 private:
   /// Promising samples that are near to one another.
@@ -60,8 +65,12 @@ private:
   PreparedViews::MeasuredPoint drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
                                         std::uint32_t draw, Neighborhood& around) const;
 
-  std::size_t size_ = 0, first_ = 0;
-  std::size_t drawn_ = 0, uniform_ = 0;  // samples so far, and those among them that are drawn like the first ones
+  std::size_t drawn() const { return round_ends_.empty() ? 0 : round_ends_.back(); }
+
+  std::size_t size_ = 0;
+  std::size_t first_ = 0;    // samples of the first round
+  std::size_t uniform_ = 0;  // of the samples drawn so far, those that were drawn like the first ones
+  std::vector<std::size_t> round_ends_;
   std::vector<PreparedViews::MeasuredPoint> points_;
   std::vector<Place> places_;
   std::vector<std::uint32_t> place_of_, members_;  // of each sample, where it has one; samples by place

@@ -7,7 +7,7 @@
 #include "core/handles/handle_finder.h"
 #include "core/parallel/thread_team.h"
 #include "core/parallel/time_budget.h"
-#include "core/sample_block.h"
+#include "core/sample_loop.h"
 #include "core/views/point_screen.h"
 #include "core/views/prepared_views.h"
 #include "support/points.h"
@@ -35,15 +35,8 @@ public:
 
   std::vector<SampleResult> examine(const MeasuredPoints& points)
   {
-    if (config_.estimation.estimator == Estimator::normals) {
-      views_.estimateNormals(config_, points.data(), points.size(), team_);
-    }
-    std::vector<SampleResult> results(points.size());
-    for (std::size_t begin = 0; begin < points.size(); begin += SampleBlock::kSamples) {
-      const std::size_t end = std::min(begin + SampleBlock::kSamples, points.size());
-      block_.examine(views_, config_, begin, end, points.data() + begin, results.data() + begin, TimeBudget(0.0));
-    }
-    return results;
+    loop_.examine({views_, config_, team_, TimeBudget(0.0), Cancellation()}, points);
+    return loop_.results();
   }
 
   /// The handles of these samples, without hand poses. Their shells count the results.
@@ -83,7 +76,7 @@ private:
   Config config_;
   ThreadTeam team_;
   PreparedViews views_;
-  SampleBlock block_;
+  SampleLoop loop_;
   HandleFinder finder_;
   Neighborhood neighborhood_, part_;
 };

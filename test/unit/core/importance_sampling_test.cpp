@@ -3,8 +3,7 @@
 #include "core/kernels/instruction_sets.h"
 #include "core/parallel/thread_team.h"
 #include "core/parallel/time_budget.h"
-#include "core/sample_block.h"
-#include "core/sample_draw.h"
+#include "core/sample_loop.h"
 #include "core/views/prepared_views.h"
 #include "core/views/stratified_draw.h"
 #include "simulation/camera_orbit.h"
@@ -74,39 +73,15 @@ const TwoViews& tableFromTwoSides()
 /// All rounds of a localization, one after another.
 struct Drawing
 {
-  Drawing(const std::vector<PosedCloud>& clouds, const Config& config, int threads = 1) : team(threads)
+  Drawing(const std::vector<PosedCloud>& clouds, const Config& config) : team(1)
   {
     views.update(clouds, config, Pose::Identity(), team);
-    run(config);
+    loop.run({views, config, team, TimeBudget(0.0), Cancellation()});
   }
 
-  Drawing(const Cloud& cloud, const Config& config, int threads = 1)
-      : Drawing(std::vector<PosedCloud>{{&cloud, Pose::Identity()}}, config, threads)
+  Drawing(const Cloud& cloud, const Config& config)
+      : Drawing(std::vector<PosedCloud>{{&cloud, Pose::Identity()}}, config)
   {
-  }
-
-  void run(const Config& config)
-  {
-    results.resize(static_cast<std::size_t>(config.sampling.samples));
-    draw.start(views, config);
-    for (std::size_t begin = 0; begin < draw.size();) {
-      const std::size_t end = draw.drawRound(views, config, results.data(), team);
-      EXPECT_GT(end, begin);
-      EXPECT_LE(end, draw.size());
-      if (end <= begin || end > draw.size()) {
-        return;
-      }
-      if (config.estimation.estimator == Estimator::normals) {
-        views.estimateNormals(config, draw.points() + begin, end - begin, team);
-      }
-      SampleBlock block;
-      for (std::size_t i = begin; i < end; i += SampleBlock::kSamples) {
-        block.examine(views, config, i, std::min(end, i + SampleBlock::kSamples), draw.points() + i, &results[i],
-                      TimeBudget(0.0));
-      }
-      rounds.push_back(end);
-      begin = end;
-    }
   }
 
   std::vector<std::pair<std::size_t, std::uint32_t>> points() const
@@ -120,9 +95,10 @@ struct Drawing
 
   ThreadTeam team;
   PreparedViews views;
-  SampleDraw draw;
-  std::vector<SampleResult> results;
-  std::vector<std::size_t> rounds;  // samples drawn after each
+  SampleLoop loop;
+  const SampleDraw& draw = loop.draw();
+  const std::vector<SampleResult>& results = loop.results();
+  const std::vector<std::size_t>& rounds = loop.draw().roundEnds();  // samples drawn after each
 };
 
 void expectSame(const Localization& a, const Localization& b, const std::string& what)
@@ -444,13 +420,11 @@ TEST(ImportanceSampling, EstimatesTheNormalsThatEachRoundNeeds)
       ThreadTeam team(2);
       PreparedViews at_once;
       at_once.update(clouds, config, Pose::Identity(), team);
-      at_once.estimateNormals(config, by_round.draw.points(), by_round.draw.size(), team);
-      SampleBlock block;
-      std::vector<SampleResult> expected(by_round.draw.size());
-      for (std::size_t i = 0; i < expected.size(); i += SampleBlock::kSamples) {
-        const std::size_t end = std::min(expected.size(), i + SampleBlock::kSamples);
-        block.examine(at_once, config, i, end, by_round.draw.points() + i, &expected[i], TimeBudget(0.0));
-      }
+      SampleLoop loop;
+      loop.examine({at_once, config, team, TimeBudget(0.0), Cancellation()},
+                   {by_round.draw.points(), by_round.draw.points() + by_round.draw.size()});
+      const std::vector<SampleResult>& expected = loop.results();
+      ASSERT_EQ(expected.size(), by_round.results.size());
       ASSERT_EQ(by_round.rounds.size(), 3U);
       for (std::size_t i = 0; i < expected.size(); ++i) {
         ASSERT_EQ(by_round.results[i].outcome, expected[i].outcome) << i;
