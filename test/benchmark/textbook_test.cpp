@@ -176,9 +176,7 @@ TEST(Textbook, FindsTheAffordancesOfATable)
 
 TEST(Textbook, SearchesACloudWithoutPixelsInATree)
 {
-  Cloud cloud = captureScene("table", 1).cloud;
-  cloud.width *= cloud.height;
-  cloud.height = 1;
+  const Cloud cloud = unorganized(captureScene("table", 1).cloud);
   Config config = presetConfig("paper");
   config.estimation.estimator = Estimator::pca;
   config.sampling.samples = 300;

@@ -57,6 +57,15 @@ inline Cloud cloudOf(const Points& points)
   return cloud;
 }
 
+/// A cloud without its rows, and without the intrinsics of the camera: no range image. Points keep their indices.
+inline Cloud unorganized(Cloud cloud)
+{
+  cloud.width = static_cast<std::uint32_t>(cloud.size());
+  cloud.height = 1;
+  cloud.intrinsics.reset();
+  return cloud;
+}
+
 /// All the cloud's points within a sphere, by looking at each.
 inline Neighborhood bruteForceNeighborhood(const Cloud& cloud, const Eigen::Vector3f& center, float radius)
 {

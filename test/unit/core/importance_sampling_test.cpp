@@ -37,14 +37,6 @@ const Cloud& table()
   return cloud;
 }
 
-Cloud unorganized(Cloud cloud)
-{
-  cloud.width *= cloud.height;
-  cloud.height = 1;
-  cloud.intrinsics.reset();
-  return cloud;
-}
-
 /// A table from two sides, and the views of it in its frame.
 struct TwoViews
 {

@@ -106,7 +106,7 @@ TEST(Properties, MovedPointsMoveTheirShells)
   forEachCase([&](PropertyCase property) {
     const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     std::vector<std::uint32_t> from;
-    const Cloud cloud = unorganized(frame.cloud, from);
+    const Cloud cloud = measuredPointsOf(frame.cloud, from);
     const MeasuredPoints given =
         samplesOf(placesIn(from, somePoints(frame.cloud, property.config, property.samples, property.random)));
     const Pose T = somePose(property.random);
@@ -158,7 +158,7 @@ TEST(Properties, PointsMovedWithoutRoundingMoveTheirShells)
   forEachCase([&](PropertyCase property) {
     const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     std::vector<std::uint32_t> from;
-    const Cloud cloud = onGrid(unorganized(frame.cloud, from));
+    const Cloud cloud = onGrid(measuredPointsOf(frame.cloud, from));
     const MeasuredPoints given =
         samplesOf(placesIn(from, somePoints(frame.cloud, property.config, property.samples, property.random)));
     Pose T = Pose::Identity();

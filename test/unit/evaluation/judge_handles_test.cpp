@@ -167,9 +167,7 @@ TEST(JudgeHandles, BoundedSearchAgreesWithLookingAtEachPointAndWithShells)
       labels[i] = random.uniform(0.0, 1.0) < 0.5 ? 0 : static_cast<std::uint32_t>(random.uniform(1.0, 4.0));
     }
   }
-  Cloud points = cloud;
-  points.width = static_cast<std::uint32_t>(cloud.size());
-  points.height = 1;
+  const Cloud points = unorganized(cloud);
   const Judge bounded(cloud, labels), brute(points, labels);
   int right = 0, wrong = 0;
   for (int i = 0; i < 300; ++i) {

@@ -40,14 +40,6 @@ Cloud capture(const Scene& scene, const Pose& T_scene_camera = Pose::Identity())
   return Xtion(exactSensor()).capture(scene, T_scene_camera, 1).cloud;
 }
 
-Cloud unorganized(Cloud cloud)
-{
-  cloud.width *= cloud.height;
-  cloud.height = 1;
-  cloud.intrinsics.reset();
-  return cloud;
-}
-
 /// A straight handle with its middle at a point.
 GraspHandle handleAt(const Vector& centroid, const Vector& axis, const Vector& normal, double inner_radius,
                      double length)

@@ -381,10 +381,7 @@ TEST(HandleFinder, ScoresAsItsDocumentationSays)
 TEST(HandleFinder, FindsHandlesWithoutARangeImage)
 {
   const View view = barView();
-  Cloud cloud = capture(view, 1);
-  cloud.width *= cloud.height;
-  cloud.height = 1;
-  cloud.intrinsics.reset();
+  const Cloud cloud = unorganized(capture(view, 1));
   Config config = plainConfig();
   config.sampling.samples = 6000;
   const Localization result = Localizer(config).localize(cloud);
