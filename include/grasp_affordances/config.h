@@ -17,7 +17,7 @@ struct HandGeometry
   double palm_depth = 0.06;  ///< m, from the palm's face back along the approach, with what is fixed behind it
 };
 
-/// Which points around a sample make up its neighborhood.
+/// The points around a sample that make up its neighborhood.
 enum class NeighborhoodKind
 {
   radius,  ///< all points within a sphere
@@ -98,9 +98,8 @@ struct ShellConfig
   double reference_spacing = 0.0015;  ///< m between the points of neighboring pixels where they hold as given
 };
 
-/// An axis-aligned box that samples are drawn in; what lies outside still counts for clearance and occlusion. Its
-/// frame is that of the cloud, or another that the caller relates to it (see Localizer). The default box limits
-/// nothing.
+/// An axis-aligned box that samples are drawn in. Points outside still count for clearance and occlusion. The box is in
+/// the cloud's frame, or in another that the caller relates to it (see Localizer). The default box limits nothing.
 struct WorkspaceConfig
 {
   static constexpr double kNoLimit = 100.0;  ///< m; a side of the box that is no nearer to 0 limits nothing
@@ -121,7 +120,7 @@ struct WorkspaceConfig
   }
 };
 
-/// How shells become handles: what a hand can close around as one, straight or bent.
+/// How shells become handles. A handle is what a hand can close around as one thing, straight or bent.
 struct HandlesConfig
 {
   double max_angle = 0.6;                ///< rad, between the axes of shells that follow one another along a handle
@@ -161,8 +160,8 @@ struct TrackingConfig
   double lifetime = 1.0;        ///< s, for which a handle that is not found any more is still reported
 };
 
-/// Everything that determines a result. The initialisers above are the `localizer` preset and the only place where its
-/// defaults stand; `config/localizer.yaml` is checked against them by a test.
+/// Everything that determines a result. The initialisers above are the `localizer` preset, and the only place where its
+/// defaults stand. A test compares `config/localizer.yaml` with them.
 struct Config
 {
   std::string preset = "localizer";  ///< name of the preset that the values started from

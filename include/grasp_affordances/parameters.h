@@ -17,14 +17,13 @@ struct Range
   T max;
 };
 
-/// Name, range, unit and description of every field of a Config: the only list of parameters. YAML files, ROS
-/// parameters, validation and documentation all go through it.
+/// Visits every field of a Config with its name, range, unit and description: the only list of parameters. YAML files,
+/// ROS parameters, validation and documentation all go through it.
 ///
-/// Calls `visit(name, field, range, unit, description)` for numbers (field: double&, int& or std::uint64_t&) and
-/// `visit(name, field, description)` for bool&, NeighborhoodKind&, Estimator& and
-/// NormalsMode&. Names are paths:
-/// "hand/capture_radius" is the key capture_radius in the YAML map hand, and the private ROS parameter
-/// ~hand/capture_radius.
+/// Calls `visit(name, field, range, unit, description)` for numbers (field: double&, int& or std::uint64_t&), and
+/// `visit(name, field, description)` for switches and words (field: bool&, NeighborhoodKind&, Estimator& or
+/// NormalsMode&). A name is a path: "hand/capture_radius" is the key capture_radius in the YAML map hand, and the
+/// private ROS parameter ~hand/capture_radius. A description stands by itself, for lists are sorted in other ways.
 template <typename ConfigT, typename Visitor>
 void visitParameters(ConfigT& c, Visitor&& visit)
 {
@@ -199,7 +198,7 @@ void visitParameters(ConfigT& c, Visitor&& visit)
         "number of threads that work on a cloud; 0: one per core; no influence on the result");
 }
 
-/// Words that stand for the values of an enumeration, in the order of its values.
+/// The words for the values of an enumeration, in the order of its values.
 template <typename Enum>
 const std::vector<std::string>& enumWords();
 template <>
@@ -215,7 +214,7 @@ const std::string& enumWord(Enum value)
   return enumWords<Enum>()[static_cast<std::size_t>(value)];
 }
 
-/// @throw ParameterError, with `name`, for a word that stands for no value.
+/// The value that a word stands for. @throw ParameterError, with `name`, for a word that stands for none.
 template <typename Enum>
 Enum enumFromWord(const std::string& name, const std::string& word);
 template <>
@@ -225,9 +224,9 @@ Estimator enumFromWord<Estimator>(const std::string& name, const std::string& wo
 template <>
 NormalsMode enumFromWord<NormalsMode>(const std::string& name, const std::string& word);
 
-/// Reads parameters from YAML text over the preset that its key `preset` names, else over `base`.
-/// Keys that are missing keep their value; the values are validated.
-/// @throw ParameterError for text that is no YAML map, an unknown key, a value of the wrong type or outside its range.
+/// Reads parameters from YAML text. Parameters that the text does not give keep the value of the preset that its key
+/// `preset` names, or else of `base`. The result is validated.
+/// @throw ParameterError for text that is no YAML map, an unknown key, a value of the wrong type or outside its range
 Config configFromYaml(const std::string& text, const Config& base);
 
 /// As configFromYaml, from a file. @throw ParameterError also for a file that cannot be read.

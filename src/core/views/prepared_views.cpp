@@ -13,7 +13,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Where a neighborhood is all points within a sphere: its radius (m).
+/// m, of the sphere of a neighborhood of kind `radius`.
 float sphereRadius(const Config& config)
 {
   const double radius = config.neighborhood.radius;
@@ -39,7 +39,7 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
     for (const std::string& warning : cloud.warnings) {
       warnings.push_back(views.size() == 1 ? warning : "view " + std::to_string(i + 1) + ": " + warning);
     }
-    if (!views[i].T_common_cloud.matrix().cast<float>().allFinite()) {  // else one relative to another may be no number
+    if (!views[i].T_common_cloud.matrix().cast<float>().allFinite()) {  // relative poses might then be NaN
       warnings.push_back("view " + std::to_string(i + 1) + ": its pose is not finite in single precision");
     } else if (cloud.search != nullptr) {
       views_.push_back({i + 1, &cloud, views[i].T_common_cloud, first_point});
@@ -78,13 +78,13 @@ void PreparedViews::joinPoints()
   joinScreened();
 }
 
-/// By turns, so that the views have the same share in the first of these points as in all: the samples of a first round
-/// are drawn from those.
+/// The views take turns, so that each has the same share of the first points of the list as of the whole list: a first
+/// round draws its samples from the first points.
 void PreparedViews::joinScreened()
 {
   screened_.clear();
   if (!allHaveImages()) {
-    return;  // what cannot be screened would hardly be sampled
+    return;  // points of a view without an image cannot be screened, and would hardly be drawn
   }
   std::size_t total = 0;
   for (View& view : views_) {
@@ -134,7 +134,7 @@ void PreparedViews::compareViews(ThreadTeam& team)
   warnings.insert(warnings.end(), comparison_.warnings().begin(), comparison_.warnings().end());
 }
 
-/// What one view takes to be hidden, another may have seen through.
+/// Takes out points of hidden surfaces where another view saw through.
 void PreparedViews::uncoverHiddenSurfaces(double margin, ThreadTeam& team)
 {
   for (std::size_t view = 0; view < size(); ++view) {
@@ -154,7 +154,7 @@ void PreparedViews::uncoverHiddenSurfaces(double margin, ThreadTeam& team)
   }
 }
 
-/// Whether a view measured something farther than a point in its frame, by more than a margin (m).
+/// Whether a view measured something that is farther away than a point (in the view's frame) by more than a margin (m).
 bool PreparedViews::sawThrough(std::size_t view, const Eigen::Vector3d& point, double margin) const
 {
   const RangeImage& image = *views_[view].cloud->image;
@@ -225,13 +225,13 @@ void PreparedViews::gather(const MeasuredPoint& sample, const Config& config, bo
   }
 }
 
-/// The distance of the k-th nearest point of all views, or of the last where there are fewer.
+/// m, distance of the k-th nearest point of all views, or of the farthest point where there are fewer than k.
 float PreparedViews::radiusOfNearest(const MeasuredPoint& sample, const Config& config, Neighborhood& joined,
                                      Neighborhood& part) const
 {
   const auto k = static_cast<std::size_t>(config.neighborhood.k);
   views_[sample.view].cloud->search->nearest(centerIn(sample.view, sample), k, joined);
-  const bool bounded = joined.size() == k;  // then no point of another view counts that is farther than these
+  const bool bounded = joined.size() == k;  // then points of other views that are farther than these do not count
   for (std::size_t view = 0; view < size(); ++view) {
     if (view != sample.view) {
       const NeighborhoodSearch& search = *views_[view].cloud->search;
@@ -257,7 +257,7 @@ bool PreparedViews::occluded(const OcclusionConfig& config, const SphereView* sp
   return true;
 }
 
-/// Calls visit(view, begin, count) for the points of a gathered neighborhood that each view contributed.
+/// Calls visit(view, begin, count) for each view: which points of a gathered neighborhood it contributed.
 template <typename Visitor>
 void PreparedViews::visitParts(const MeasuredPoint& sample, const SphereView* spheres, Visitor&& visit) const
 {
@@ -286,7 +286,7 @@ std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const MeasuredPoint& s
   return grasp_affordances::normalsAxis(scatter);
 }
 
-/// Those of all points in the neighborhoods of the samples that are not occluded.
+/// At all points in the neighborhoods of those samples that are not occluded.
 void PreparedViews::estimateNormals(const Config& config, const MeasuredPoint* samples, std::size_t count,
                                     ThreadTeam& team, const Cancellation& cancellation)
 {

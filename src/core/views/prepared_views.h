@@ -24,8 +24,8 @@
 namespace grasp_affordances
 {
 
-/// The clouds of one moment, prepared for sampling: usually one, or what several sensors saw. Those in which there is
-/// nothing to localize are left out. Keeps its memory from moment to moment.
+/// The clouds of one moment, prepared for sampling: one, or one for each of several sensors. A view is a cloud in which
+/// there is something to localize; the other clouds are left out. Keeps its memory from moment to moment.
 class PreparedViews
 {
 public:
@@ -36,7 +36,7 @@ public:
     std::uint32_t point;  ///< its index in that view's cloud
   };
 
-  /// Prepares other clouds, which must outlive its use.
+  /// Prepares other clouds. They must stay as they are for as long as the views are used.
   void update(const std::vector<PosedCloud>& views, const Config& config, const Eigen::Isometry3d& T_workspace_common,
               ThreadTeam& team);
 
@@ -44,17 +44,17 @@ public:
   const PreparedCloud& operator[](std::size_t view) const { return *views_[view].cloud; }
   const Eigen::Isometry3d& T_common_view(std::size_t view) const { return views_[view].T_common_cloud; }
 
-  /// Number of a view's first point, where the points of all clouds are counted, one cloud after the other.
+  /// Number of a view's first point. The points of all clouds are numbered, one cloud after the other.
   std::uint32_t firstPoint(std::size_t view) const { return views_[view].first_point; }
 
-  /// False where there is nothing to draw from.
+  /// Whether there is a point that a sample can be drawn at.
   bool hasSamples() const { return !views_.empty() && !drawablePoints().empty(); }
   MeasuredPoint drawAnywhere(const SamplingConfig& config, std::uint64_t i) const;
 
-  /// The point of this number, where the points of all clouds are counted, one cloud after the other.
+  /// The point of this number. The points of all clouds are numbered, one cloud after the other.
   MeasuredPoint viewOf(std::uint32_t point) const;
 
-  /// Estimates, for the Normals variation, the surface normals that these samples need and that are not known yet.
+  /// Estimates the surface normals that the Normals variation needs for these samples and that are not known yet.
   /// @throw Cancelled
   void estimateNormals(const Config& config, const MeasuredPoint* samples, std::size_t count, ThreadTeam& team,
                        const Cancellation& cancellation = Cancellation());
@@ -62,29 +62,34 @@ public:
   /// Whether all views are range images.
   bool allHaveImages() const;
 
-  /// What each view (spheres[view]) sees of a sample's neighborhood, which must be all points within a sphere. Takes
-  /// less time than gather(). Only where all views are range images.
+  /// Tells what each view sees of a sample's neighborhood, without gathering the points, in less time than gather().
+  /// Only for neighborhoods of all points within a sphere, and only where all views are range images.
+  /// @param spheres  by view, out
   /// @return the number of points in the sphere
   std::size_t look(const MeasuredPoint& sample, const Config& config, SphereView* spheres) const;
 
-  /// A sample's neighborhood in its view's frame, and what each view sees of it. The points of the sample's view come
-  /// first, then those of each other view; their indices, if asked for, are those in their own clouds. The k nearest
-  /// points in several views are all points in the sphere that holds them.
+  /// Gathers a sample's neighborhood in the frame of the sample's view, and tells what each view sees of it. The points
+  /// of the sample's view come first, then those of each other view. Their indices are those in their own clouds. Where
+  /// there are several views, the k nearest points of all of them determine a sphere, and all points in it are
+  /// gathered.
+  /// @param with_index  whether the indices are asked for
+  /// @param spheres  by view, out
   /// @param part  working memory
   void gather(const MeasuredPoint& sample, const Config& config, bool with_index, Neighborhood& neighborhood,
               SphereView* spheres, Neighborhood& part) const;
 
-  /// Whether none of the views that have points in a neighborhood sees it unoccluded.
+  /// Whether a neighborhood is occluded in every view that has points in it.
   bool occluded(const OcclusionConfig& config, const SphereView* spheres) const;
 
-  /// Axis of the Normals variation, in the frame of the sample's view.
+  /// The axis of the Normals variation for a gathered neighborhood, in the frame of the sample's view.
   std::optional<Eigen::Vector3d> normalsAxis(const MeasuredPoint& sample, const Neighborhood& neighborhood,
                                              const SphereView* spheres) const;
 
   /// Distance (m) between neighboring points at a point of a view; 0 without a range image.
   double spacing(std::size_t view, const Eigen::Vector3d& point) const;
 
-  /// What a shell that is searched in a view's frame has around it.
+  /// What surrounds a shell that is searched in a view's frame.
+  /// @param spacing  m, between neighboring points; 0: unknown
   ShellSurroundings surroundings(std::size_t view, double spacing) const;
 
   std::uint32_t measured = 0;                                      ///< points of all clouds
@@ -94,11 +99,11 @@ public:
 private:
   struct View
   {
-    std::size_t number;  // among the clouds that were given, from 1
+    std::size_t number;  // of the cloud among those that were given, from 1
     PreparedCloud* cloud;
     Eigen::Isometry3d T_common_cloud;
     std::uint32_t first_point;
-    std::size_t joined = 0;  // of its screened points
+    std::size_t joined = 0;  // how many of its screened points are in screened_
   };
 
   const std::vector<std::uint32_t>& drawablePoints() const
@@ -122,7 +127,7 @@ private:
   std::vector<View> views_;
   std::vector<Eigen::Isometry3d> T_;              // between the views' frames: [to * size + from]
   std::vector<std::vector<OtherView>> others_;    // by view
-  std::vector<std::uint32_t> points_, screened_;  // of several views, those that samples are drawn from
+  std::vector<std::uint32_t> points_, screened_;  // of several views: points that samples may be drawn at, by number
   std::vector<ComparedView> compared_;
   ViewComparison comparison_;
   std::vector<Neighborhood> neighborhoods_;  // two per thread

@@ -15,36 +15,37 @@
 namespace grasp_affordances
 {
 
-/// Tells how wrong the relative pose of two views is, from the surfaces that both see: the rigid motion that fits them
-/// best onto one another (iterated closest points with the symmetric point-to-plane distance of Rusinkiewicz 2019,
-/// projective association, robust weights from coarse to fine) would vanish were the pose right.
+/// Tells how wrong the relative pose of two views is, from the surfaces that both see. It looks for the rigid motion
+/// that fits these surfaces best onto one another; if the pose is right, no motion is needed. The method is iterated
+/// closest points, with the symmetric point-to-plane distance (Rusinkiewicz 2019), projective association, and robust
+/// weights from coarse to fine.
 ///
 /// Deterministic. Keeps its memory from pair to pair; one instance serves one caller at a time.
 class ViewAgreement
 {
 public:
-  /// Mean length (m) of the way that this motion takes the common points. Surfaces are looked for up to 6 cm away:
-  /// errors of the pose up to some 5 cm are measured, larger ones only noticed, if at all. NaN where the views have too
-  /// little in common.
+  /// The mean distance (m) by which this motion moves the common points. NaN where the views have too little in common.
+  /// Surfaces are looked for up to 6 cm away. So errors of the pose up to some 5 cm are measured; larger errors give a
+  /// value that is too small, or NaN.
   ///
-  /// What common surfaces do not tell is taken for right: with a single plane, shifts along it and turns about its
+  /// Errors that common surfaces do not show are not measured: with a single plane, shifts along it and turns about its
   /// normal.
   double disagreement(const RangeImage& first, const RangeImage& second, const Eigen::Isometry3d& T_first_second);
 
 private:
-  /// Two elements of what may be one surface, in the first view's frame.
+  /// Two elements, one of each view, that may be of one surface. In the first view's frame.
   struct Pair
   {
     Eigen::Vector3d point_of_second;
-    Eigen::Vector3d normal;  // of both
-    double distance;         // m, of the second's from the first's along the normal
+    Eigen::Vector3d normal;  // unit, the mean of both
+    double distance;         // m, along the normal from the point of the first to that of the second
     double weight;
   };
 
   /// Where a fit has ended.
   struct Fit
   {
-    double support = 0.0;       // pairs that it leaves close together
+    double support = 0.0;       // number of pairs that are close together then
     double displacement = 0.0;  // m, mean over them
   };
 
