@@ -16,10 +16,10 @@ namespace grasp_affordances
 /// Principal curvature of larger magnitude at a point of a quadric.
 struct PrincipalCurvature
 {
-  double value = 0.0;  ///< in the inverse of the quadric's local unit; positive where the surface bends away from its
-                       ///< gradient's side (a sphere whose gradient points outwards is positive)
+  double value = 0.0;  ///< in the inverse of the quadric's local unit; positive where the surface bends away from the
+                       ///< side that its gradient points to, as of a sphere whose gradient points outwards
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit tangent about which the surface curves most: the cross
-                                                    ///< product of the normal with the direction of that curvature
+                                                    ///< product of the normal with the direction of this curvature
 };
 
 /// From the shape operator: the Hessian restricted to the tangent plane, over the gradient's norm (paper, section
@@ -32,7 +32,7 @@ struct NeighborhoodCurvature
 {
   double median = 0.0;                              ///< 1/m, of the magnitudes
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, curvature axis at the median point
-  bool concave = false;  ///< at most of the points the centre of curvature lies on the sensor's side
+  bool concave = false;  ///< whether at most points the centre of curvature lies on the sensor's side
 };
 
 /// Working memory of medianCurvature, one per thread.

@@ -14,20 +14,20 @@ namespace grasp_affordances
 struct OtherView
 {
   const NeighborhoodSearch* cloud = nullptr;
-  const NeighborhoodSearch* hidden = nullptr;                      ///< may be null, as in ShellSurroundings
-  const RangeImage* image = nullptr;                               ///< may be null
-  Eigen::Isometry3d T_other_this = Eigen::Isometry3d::Identity();  ///< to its frame, from that of the shell
+  const NeighborhoodSearch* hidden = nullptr;                      ///< as in ShellSurroundings
+  const RangeImage* image = nullptr;                               ///< as in ShellSurroundings
+  Eigen::Isometry3d T_other_this = Eigen::Isometry3d::Identity();  ///< from the shell's frame to the other sensor's
 };
 
 /// What a shell is searched in.
 struct ShellSurroundings
 {
-  const NeighborhoodSearch& cloud;
-  const NeighborhoodSearch* hidden =
-      nullptr;                        ///< what is taken to be where the sensor did not see: blocks gaps as well
-  const RangeImage* image = nullptr;  ///< tells what was not seen, and how exactly depth was measured
-  double spacing = 0.0;               ///< m, between neighboring points; 0: unknown
-  const std::vector<OtherView>* others = nullptr;  ///< whose points count as well; null for none
+  const NeighborhoodSearch& cloud;             ///< the measured points
+  const NeighborhoodSearch* hidden = nullptr;  ///< points of surfaces that are continued behind others: these block a
+                                               ///< gap, too; null for none
+  const RangeImage* image = nullptr;           ///< null for a cloud that is no range image
+  double spacing = 0.0;                        ///< m, between neighboring points; 0: unknown
+  const std::vector<OtherView>* others = nullptr;  ///< other views of the scene, whose points count, too; null for none
 };
 
 }  // namespace grasp_affordances
