@@ -52,7 +52,7 @@ public:
   Config config;
   Cancellation cancellation;
   std::optional<ThreadTeam> team;
-  std::vector<PosedCloud> single;  // a cloud without others
+  std::vector<PosedCloud> single;  // the one cloud that localize(cloud, ...) was given
   PreparedViews views;
   SampleLoop loop;
   HandleFinder handle_finder;
@@ -100,7 +100,7 @@ void Localizer::cancelWhen(std::function<bool()> wanted)
   implementation_->cancellation.askInstead(std::move(wanted));
 }
 
-/// AffordanceFind (Algorithm 1), and what becomes of its shells.
+/// AffordanceFind (Algorithm 1); then groups its shells into handles, and searches hand poses for these.
 void Localizer::localize(const std::vector<PosedCloud>& views, Localization& result,
                          const Eigen::Isometry3d& T_workspace_common, const Eigen::Isometry3d& T_approach_common)
 {

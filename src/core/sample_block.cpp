@@ -22,13 +22,13 @@ namespace
 constexpr std::optional<Outcome> kGoesOn;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The part of the direction to the sensor that is at right angles to the axis.
+/// Unit vector: the part of the direction to the sensor that is at right angles to the axis.
 Eigen::Vector3d normalTowards(const Eigen::Vector3d& sensor, const Eigen::Vector3d& centroid,
                               const Eigen::Vector3d& axis)
 {
   const Eigen::Vector3d direction = (sensor - centroid).normalized();
   const Eigen::Vector3d across = direction - direction.dot(axis) * axis;
-  constexpr double kAlongAxis = 1e-6;  // the sensor looks along the axis: any normal is as good
+  constexpr double kAlongAxis = 1e-6;  // below this the sensor looks along the axis, and any normal will do
   return across.norm() > kAlongAxis ? across.normalized() : axis.unitOrthogonal();
 }
 
@@ -78,8 +78,8 @@ void SampleBlock::examine(const SampleContext& context, const SampleSpan& span)
     sample.result->outcome = Outcome::shell;
     all.add(sample);
   }
-  // To the letter, with no distance, the filter rejects most samples: then it is worth a look before their points are
-  // gathered.
+  // Without a distance, as in the paper, the filter rejects most samples. Then it pays to filter before their points
+  // are gathered.
   const bool looks = config.occlusion.filter && config.occlusion.min_distance_in_front == 0.0 &&
                      config.neighborhood.kind == NeighborhoodKind::radius && views.allHaveImages();
   if (looks) {
@@ -205,7 +205,7 @@ void SampleBlock::estimatePrincipalAxes(Remaining& samples, const PreparedViews&
   });
 }
 
-/// The cylinder through each neighborhood, about its axis.
+/// Fits a cylinder about its axis to each neighborhood.
 void SampleBlock::fitCylinders(Remaining& samples, const PreparedViews& views, const Config& config)
 {
   samples.pass([&](Sample& sample) -> std::optional<Outcome> {

@@ -41,10 +41,10 @@ struct SampleContext
 /// Samples that follow one another.
 struct SampleSpan
 {
-  std::uint64_t first;  ///< number of the first one in the localization: what it draws at random depends on that
+  std::uint64_t first;  ///< number of the first one in the localization; its random draws depend on it
   std::size_t count;
-  const PreparedViews::MeasuredPoint* points;  ///< where they are; one for each
-  SampleResult* results;                       ///< where they end; one for each
+  const PreparedViews::MeasuredPoint* points;  ///< where each sample is
+  SampleResult* results;                       ///< where each sample ended, out
 };
 
 /// The body of Algorithm 1's loop, for a block of samples at a time. Each stage is done for all samples that are left
@@ -59,7 +59,7 @@ public:
   /// end as out of time. Once the localization is cancelled, it returns early, and the results are not valid.
   void examine(const SampleContext& context, const SampleSpan& span);
 
-  StageTimes times;  ///< summed over the samples since it was last reset
+  StageTimes times;  ///< of the stages of a sample, summed over all samples; callers reset it
 
 private:
   struct Sample
@@ -67,7 +67,7 @@ private:
     std::uint64_t number;
     PreparedViews::MeasuredPoint point;
     SphereView* spheres;         // by view
-    Neighborhood* neighborhood;  // of those that are fitted at once
+    Neighborhood* neighborhood;  // one of neighborhoods_
     Moments moments;
     std::optional<TaubinFit> fit;
     Eigen::Vector3d axis;  // unit
@@ -76,7 +76,7 @@ private:
     FittedCylinder cylinder;
     SampleResult* result;
 
-    /// How many of the neighborhood's points, the first ones, the view saw that the sample was drawn from.
+    /// Number of the neighborhood's points that the sample's own view saw. They come first.
     std::size_t ownPoints() const { return spheres[point.view].survey.points; }
   };
 
@@ -88,7 +88,7 @@ private:
     Sample& operator[](std::size_t i) const { return *samples_[i]; }
     void add(Sample& sample) { samples_[size_++] = &sample; }
 
-    /// Calls stage(sample) for each; one that is given an outcome ends there.
+    /// Calls stage(sample) for each sample. A sample for which it returns an outcome ends there.
     template <typename Stage>
     void pass(Stage&& stage);
 
@@ -113,7 +113,7 @@ private:
   std::array<Sample, kSamples> samples_;
   std::vector<SphereView> spheres_;
   std::array<Neighborhood, kFittedAtOnce> neighborhoods_;
-  Neighborhood part_;  // of one of several views
+  Neighborhood part_;  // the points of one of several views
   TaubinFitter fitter_;
   CurvatureScratch curvature_scratch_;
   ShellSearch shell_search_;

@@ -12,16 +12,16 @@ namespace
 {
 
 constexpr std::size_t kLaterRounds = 2;
-constexpr std::uint64_t kStream = 3;  // of random bits
+constexpr std::uint64_t kStream = 3;  // the first of the streams of random bits that are used here
 constexpr std::uint32_t kNoPlace = std::numeric_limits<std::uint32_t>::max();
 
-/// In [-1, 1).
+/// A number in [-1, 1).
 double symmetric(std::uint64_t bits)
 {
   return static_cast<double>(bits >> 11U) * 0x1p-52 - 1.0;
 }
 
-/// Whether a shell was found or nearly so.
+/// Whether a sample found a shell, or nearly did.
 bool promising(Outcome outcome)
 {
   return outcome == Outcome::shell || outcome == Outcome::too_short || outcome == Outcome::unobserved_gap ||
@@ -58,7 +58,7 @@ std::size_t SampleDraw::drawRound(const PreparedViews& views, const Config& conf
     end = std::min(size_, begin + (size_ - first_ + kLaterRounds - 1) / kLaterRounds);
     shareOut(static_cast<std::size_t>((1.0 - config.sampling.uniform_share) * static_cast<double>(end - begin)));
   }
-  // Draws near places and others take turns.
+  // Samples near places and others take turns.
   const std::size_t round = end - begin, near = places_.empty() ? 0 : places_.back().draws;
   const auto nearBefore = [&](std::size_t place_in_round) { return place_in_round * near / round; };
   around_.resize(team.size());
@@ -76,7 +76,7 @@ std::size_t SampleDraw::drawRound(const PreparedViews& views, const Config& conf
   return end;
 }
 
-/// Of the samples drawn so far.
+/// Gathers the promising ones of the samples so far into places.
 void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, const SampleResult* results,
                             const Cancellation& cancellation)
 {
@@ -115,11 +115,11 @@ void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, co
   }
 }
 
-/// Shares out at most so many draws among the places.
+/// Shares out at most so many samples among the places.
 void SampleDraw::shareOut(std::size_t draws)
 {
-  constexpr double kMostDraws = 32.0;    // for a place in a round
-  constexpr std::uint32_t kEnough = 20;  // shells
+  constexpr double kMostDraws = 32.0;    // samples for a place in a round
+  constexpr std::uint32_t kEnough = 20;  // shells with which a place gets no more samples
   const auto weight = [](const Place& place) { return place.shells < kEnough ? 1.0 / (1.0 + place.shells) : 0.0; };
   double sum = 0.0;
   for (const Place& place : places_) {
@@ -135,8 +135,10 @@ void SampleDraw::shareOut(std::size_t draws)
   }
 }
 
-/// A measured point near one of a place's samples; in the image, where there is one. @param draw  number of the draw
-/// in its round, which decides on the place
+/// Draws a measured point near one of a place's samples: near in the image, or near in space without an image.
+/// @param i  number of the sample
+/// @param draw  number of this draw among those near places in its round; it decides on the place
+/// @param around  working memory
 PreparedViews::MeasuredPoint SampleDraw::drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
                                                   std::uint32_t draw, Neighborhood& around) const
 {
@@ -147,7 +149,7 @@ PreparedViews::MeasuredPoint SampleDraw::drawNear(const PreparedViews& views, co
   const PreparedViews::MeasuredPoint origin = points_[members_[place->first + member]];
   const PreparedCloud& prepared = views[origin.view];
   const Eigen::Vector3f center = prepared.cloud->point(origin.point);
-  const double half = std::sqrt(3.0) * config.sampling.spread;  // of a uniform distribution
+  const double half = std::sqrt(3.0) * config.sampling.spread;  // m, half width of a uniform distribution
   if (!prepared.image) {
     prepared.search->withinRadius(center, static_cast<float>(half), around);
     const std::uint32_t drawn =

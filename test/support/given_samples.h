@@ -24,7 +24,7 @@ namespace grasp_affordances::test
 
 using MeasuredPoints = std::vector<PreparedViews::MeasuredPoint>;
 
-/// Algorithm 1 from the neighborhoods on, with samples that are given rather than drawn.
+/// Algorithm 1 with samples at given points, in place of drawn ones.
 class GivenSamples
 {
 public:
@@ -39,7 +39,7 @@ public:
     return loop_.results();
   }
 
-  /// The handles of these samples, without hand poses. Their shells count the results.
+  /// The handles of these samples, without hand poses. The indices of their shells are those of the results.
   std::vector<GraspHandle> handles(const MeasuredPoints& points, const std::vector<SampleResult>& results)
   {
     std::vector<Shell> shells;
@@ -60,7 +60,7 @@ public:
     return handles;
   }
 
-  /// Points of a sample's neighborhood by their indices, in ascending order. Of one cloud only.
+  /// Indices of the points of a sample's neighborhood, in ascending order. For one cloud only.
   std::vector<std::uint32_t> neighborhood(const PreparedViews::MeasuredPoint& point)
   {
     SphereView sphere;
@@ -87,7 +87,8 @@ inline std::vector<PosedCloud> alone(const Cloud& cloud)
   return {{&cloud, Eigen::Isometry3d::Identity()}};
 }
 
-/// Points of an organized cloud, three in four where it falls away on both sides, for there are the shells.
+/// Draws points of an organized cloud. Three of four are points where it falls away on both sides, since the shells are
+/// there.
 inline std::vector<std::uint32_t> somePoints(const Cloud& cloud, const Config& config, std::size_t count,
                                              Random& random)
 {

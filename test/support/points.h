@@ -66,7 +66,7 @@ inline Cloud unorganized(Cloud cloud)
   return cloud;
 }
 
-/// All the cloud's points within a sphere, by looking at each.
+/// All points of a cloud within a sphere, found by looking at each point.
 inline Neighborhood bruteForceNeighborhood(const Cloud& cloud, const Eigen::Vector3f& center, float radius)
 {
   Neighborhood neighborhood;
@@ -99,7 +99,7 @@ inline Points cylinderPoints(double radius, double arc, double length, std::size
   return points;
 }
 
-/// A cloud as it is in another frame.
+/// A cloud in another frame.
 inline Cloud moved(const Cloud& cloud, const Eigen::Isometry3d& T)
 {
   Cloud result = cloud;
