@@ -4,7 +4,7 @@
 #include "grasp_affordances/handle.h"
 #include "grasp_affordances/localization.h"
 
-#include "core/handles/cylinder_fit.h"
+#include "core/handles/bar_fit.h"
 #include "core/handles/handle_axis.h"
 #include "core/handles/shell_groups.h"
 #include "core/parallel/cancellation.h"
