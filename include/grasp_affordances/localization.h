@@ -1,5 +1,6 @@
 #pragma once
 
+#include "grasp_affordances/config.h"
 #include "grasp_affordances/handle.h"
 
 #include <Eigen/Geometry>
@@ -58,7 +59,21 @@ constexpr std::size_t kOutcomes = 11;
 /// Key of an outcome in `counts` ("too_few_points", ..., "shells").
 const char* outcomeName(Outcome outcome);
 
-struct Config;
+/// Why no sample was drawn. Of several clouds that differ in this, the reason of the one that came nearest to a sample,
+/// which is the last one in this list.
+enum class NothingSampled : std::uint8_t
+{
+  no_cloud,          ///< no cloud was given, or none with a finite pose
+  empty_cloud,       ///< the cloud has no points
+  nothing_measured,  ///< all points are NaN, zero or infinite
+  points_coincide,   ///< all measured points coincide
+  outside_workspace  ///< no measured point lies within the workspace
+};
+constexpr std::size_t kNothingSampledReasons = 5;
+
+/// What a warning says of such a reason: "the cloud is empty", ...
+const char* describe(NothingSampled reason);
+
 struct Localization;
 
 /// One sentence for people that says why there is no handle, and which parameter to look at; empty where there is one.
@@ -92,6 +107,7 @@ struct Localization
   /// m, by which two views place the same surfaces differently, the largest over all pairs of views: a measure of how
   /// wrong their relative poses are. NaN with fewer than two range images, and where they see nothing in common.
   double view_disagreement = std::numeric_limits<double>::quiet_NaN();
+  NothingSampled nothing_sampled = NothingSampled::no_cloud;  ///< the reason, where `sampled` is 0
   std::vector<std::string> warnings;  ///< one line each, about the cloud: what could not be used and why
 };
 

@@ -137,6 +137,7 @@ void Localizer::localize(const std::vector<PosedCloud>& views, Localization& res
   result.points = own.views.measured;
   result.threads = static_cast<std::uint32_t>(own.team->size());
   result.warnings = own.views.warnings;
+  result.nothing_sampled = own.views.nothing_sampled;
   result.view_disagreement = own.views.disagreement;
   result.milliseconds.preparation = stopwatch.lap();
 

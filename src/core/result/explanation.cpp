@@ -32,24 +32,22 @@ std::string millimetres(double metres)
   return text.str();
 }
 
-/// Why the cloud gave no sample, as the warnings about it say, and where to look.
-std::string nothingSampled(const Localization& localization)
+/// Why no sample was drawn, and where to look.
+std::string whyNothingSampled(NothingSampled reason)
 {
-  const std::string mark = "nothing to localize: ";
-  std::string reasons;
-  for (std::string warning : localization.warnings) {
-    if (const std::size_t at = warning.find(mark); at != std::string::npos) {
-      reasons += (reasons.empty() ? "" : "; ") + warning.erase(at, mark.size());
-    }
+  const std::string description = describe(reason);
+  switch (reason) {
+    case NothingSampled::no_cloud:
+      break;
+    case NothingSampled::empty_cloud:
+    case NothingSampled::nothing_measured:
+    case NothingSampled::points_coincide:
+      return description + ": look at the sensor, its distance, and what publishes its cloud";
+    case NothingSampled::outside_workspace:
+      return description +
+             ": widen that box, workspace/min_x to workspace/max_z or the region of a call, or look at its frame";
   }
-  if (reasons.empty()) {
-    return "there was no cloud to draw samples from";
-  }
-  const bool beyond_workspace = reasons.find("workspace") != std::string::npos;
-  return reasons +
-         (beyond_workspace
-              ? ": widen that box, workspace/min_x to workspace/max_z or the region of a call, or look at its frame"
-              : ": look at the sensor, its distance, and what publishes its cloud");
+  return description;
 }
 
 std::string shellsWithoutHandle(const Localization& localization, const Config& config)
@@ -133,7 +131,7 @@ std::string explainNothing(const Localization& localization, const Config& confi
   std::string reason;
   const bool late = 2 * count(localization, Outcome::out_of_time) > localization.sampled;
   if (localization.sampled == 0) {
-    reason = nothingSampled(localization);
+    reason = whyNothingSampled(localization.nothing_sampled);
   } else if (!localization.shells.empty() && !late) {
     reason = shellsWithoutHandle(localization, config);
   } else {
