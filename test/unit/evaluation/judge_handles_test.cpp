@@ -2,7 +2,7 @@
 #include "evaluation/handle_errors.h"
 #include "evaluation/judge.h"
 #include "evaluation/labelled_cloud.h"
-#include "evaluation/polyline.h"
+#include "core/result/polyline.h"
 #include "support/points.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "evaluation/polyline.h"
+#include "core/result/polyline.h"
 
 #include <algorithm>
 #include <limits>
