@@ -14,6 +14,7 @@ namespace grasp_affordances
 /// Points joined by straight segments; at least two, of which none is the same as the next. Metres.
 using Polyline = std::vector<Eigen::Vector3d>;
 
+/// Sum of the segments' lengths (m).
 double lengthOf(const Polyline& polyline);
 
 /// A pose of a hand that is open around a handle, ready to close: origin on the handle's axis, x forward along the

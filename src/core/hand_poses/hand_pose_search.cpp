@@ -1,6 +1,7 @@
 #include "core/hand_poses/hand_pose_search.h"
 
 #include "core/cloud/lattice.h"
+#include "core/result/polyline.h"
 
 #include <algorithm>
 #include <bitset>
@@ -38,19 +39,6 @@ std::optional<Eigen::Vector3d> across(const Eigen::Vector3d& direction, const Ei
   constexpr double kAlong = 1e-3;
   return part.norm() > kAlong * direction.norm() ? std::make_optional<Eigen::Vector3d>(part.normalized())
                                                  : std::nullopt;
-}
-
-/// The point at a distance from a polyline's beginning along it; an end beyond that.
-Eigen::Vector3d pointAt(const std::vector<Eigen::Vector3d>& polyline, double distance)
-{
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    const double segment = (polyline[i] - polyline[i - 1]).norm();
-    if (distance <= segment && segment > 0.0) {
-      return polyline[i - 1] + std::max(0.0, distance / segment) * (polyline[i] - polyline[i - 1]);
-    }
-    distance -= segment;
-  }
-  return polyline.back();
 }
 
 double score(double observed_free, double filled, double aligned, double off_middle)

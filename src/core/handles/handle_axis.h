@@ -1,5 +1,6 @@
 #pragma once
 
+#include "grasp_affordances/handle.h"
 #include "grasp_affordances/localization.h"
 
 #include <Eigen/Core>
@@ -13,8 +14,8 @@ namespace grasp_affordances
 /// The axis that some shells share, straight or bent.
 struct SharedAxis
 {
-  std::vector<Eigen::Vector3d> polyline;  ///< m, from end to end: two points where it is straight
-  bool round = false;                     ///< the shells' axes have no direction in common, as about an apple
+  Polyline polyline;   ///< m, from end to end: two points where it is straight
+  bool round = false;  ///< the shells' axes have no direction in common, as about an apple
 
   bool straight() const { return polyline.size() == 2; }
 };

@@ -1,5 +1,7 @@
 #include "core/handles/handle_finder.h"
 
+#include "core/result/polyline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,37 +34,6 @@ double depthNoise(const PreparedViews& views, const Eigen::Vector3d& point)
     depth = std::min(depth, (views.T_common_view(view) * views[view].sensor - point).norm());
   }
   return 0.0008 + 0.0016 * depth * depth;
-}
-
-/// Place and direction in the middle of a polyline's length.
-void middleOf(const std::vector<Eigen::Vector3d>& polyline, Eigen::Vector3d& place, Eigen::Vector3d& direction)
-{
-  double rest = lengthOf(polyline) / 2;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    const Eigen::Vector3d step = polyline[i] - polyline[i - 1];
-    const double length = step.norm();
-    if (rest <= length || i + 1 == polyline.size()) {
-      direction = length > 0.0 ? Eigen::Vector3d(step / length) : Eigen::Vector3d::UnitZ();
-      place = polyline[i - 1] + rest * direction;
-      return;
-    }
-    rest -= length;
-  }
-}
-
-/// Of a point from the stretches of a polyline; infinite beyond the ends.
-double distanceFrom(const std::vector<Eigen::Vector3d>& polyline, const Eigen::Vector3d& point)
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    const Eigen::Vector3d step = polyline[i] - polyline[i - 1], offset = point - polyline[i - 1];
-    const double along = offset.dot(step) / step.squaredNorm();
-    const bool first = i == 1, last = i + 1 == polyline.size();
-    if ((along >= 0.0 || !first) && (along <= 1.0 || !last)) {
-      least = std::min(least, (offset - std::clamp(along, 0.0, 1.0) * step).norm());
-    }
-  }
-  return least;
 }
 
 /// Reorders the values, of which there is at least one.
@@ -154,8 +125,9 @@ void HandleFinder::describe(const PreparedViews& views, const Config& config, Gr
   }
   handle.polyline = axis_.polyline;
   handle.length = lengthOf(handle.polyline);
-  middleOf(handle.polyline, handle.centroid, handle.axis);
-  handle.axis = withLargestComponentPositive(handle.axis);
+  const PolylineMiddle middle = middleOf(handle.polyline);
+  handle.centroid = middle.point;
+  handle.axis = withLargestComponentPositive(middle.direction);
   const Eigen::Vector3d across = normal - normal.dot(handle.axis) * handle.axis;
   handle.normal =
       across.norm() > 1e-6 * static_cast<double>(members_.size()) ? across.normalized() : handle.axis.unitOrthogonal();
@@ -231,7 +203,7 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
   const auto fitPiece = [&](std::size_t i) {
     FittedBar bar;
     bar.origin = traced_[i];
-    bar.axis = (traced_[std::min(i + 1, traced_.size() - 1)] - traced_[i > 0 ? i - 1 : 0]).normalized();
+    bar.axis = chordAround(traced_, i).normalized();
     bar.radius = handle.radius;
     gatherPoints(views, bar.origin, std::hypot(kHalfLength, reach));
     keepAlong(bar, kHalfLength, reach);
@@ -263,7 +235,7 @@ double HandleFinder::agreement(const GraspHandle& handle) const
   std::size_t within = 0;
   for (const Eigen::Vector3d& sample : samples_) {
     if ((sample - handle.centroid).squaredNorm() <= farthest * farthest &&
-        distanceFrom(handle.polyline, sample) <= reach) {
+        distanceBeside(handle.polyline, sample) <= reach) {
       ++within;
     }
   }

@@ -59,7 +59,8 @@ private:
   SharedAxis axis_;
   Neighborhood neighborhood_;
   std::vector<double> radii_;  // m, of the shells, or of the pieces of a bent handle
-  std::vector<Eigen::Vector3d> points_, near_, traced_;
+  std::vector<Eigen::Vector3d> points_, near_;
+  Polyline traced_;
   std::vector<Eigen::Vector3d> samples_;  // m, in the common frame
   std::vector<GraspHandle> spare_;        // whose memory will be used again
 };

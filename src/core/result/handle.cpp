@@ -2,19 +2,8 @@
 
 #include "grasp_affordances/localization.h"
 
-#include <cstddef>
-
 namespace grasp_affordances
 {
-
-double lengthOf(const Polyline& polyline)
-{
-  double length = 0.0;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    length += (polyline[i] - polyline[i - 1]).norm();
-  }
-  return length;
-}
 
 void transform(const Eigen::Isometry3d& T, GraspHandle& handle)
 {

@@ -10,8 +10,11 @@
 namespace grasp_affordances
 {
 
-/// A handle's axis, straight or bent, measured by the way s along it: metres from its first end. Beyond its ends it
-/// goes on straight. Which end is the first is arbitrary.
+/// A handle's axis, straight or bent. A place on it is given by s, the distance (m) along the axis from its first end.
+/// Which end is the first is arbitrary.
+///
+/// Beyond its ends the curve goes on straight, so that an axis that is found longer has places there, too. This is why
+/// it does not use core/result/polyline.h, where the places end with the polyline.
 class AxisCurve
 {
 public:
@@ -26,9 +29,9 @@ public:
   explicit AxisCurve(const GraspHandle& handle);
 
   /// @param points  from end to end, at least two, no two successive ones equal
-  explicit AxisCurve(std::vector<Eigen::Vector3d> points);
+  explicit AxisCurve(Polyline points);
 
-  const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  const Polyline& points() const { return points_; }
   double length() const { return ways_.back(); }
   bool straight() const { return points_.size() == 2; }
 
@@ -37,17 +40,17 @@ public:
   Foot foot(const Eigen::Vector3d& point) const;
 
   /// So many points, at least two, evenly from one place to the other.
-  std::vector<Eigen::Vector3d> spread(double from, double to, std::size_t count) const;
+  Polyline spread(double from, double to, std::size_t count) const;
 
 private:
   std::size_t pieceAt(double s) const;
   void measure();
 
-  std::vector<Eigen::Vector3d> points_;
+  Polyline points_;
   std::vector<double> ways_;  ///< to each point
 };
 
 /// The straight one that fits points, at least two, with the least squares: from the first of them to the last.
-AxisCurve straightCurve(const std::vector<Eigen::Vector3d>& points);
+AxisCurve straightCurve(const Polyline& points);
 
 }  // namespace grasp_affordances

@@ -1,5 +1,6 @@
 #include "nodelets/messages/markers.h"
 
+#include "core/result/polyline.h"
 #include "nodelets/messages/conversions.h"
 #include "nodelets/messages/score_color.h"
 
@@ -106,7 +107,7 @@ std::vector<Eigen::Vector3d> tangents(const std::vector<Eigen::Vector3d>& line)
 {
   std::vector<Eigen::Vector3d> tangents;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    tangents.push_back((line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0]).stableNormalized());
+    tangents.push_back(chordAround(line, i).stableNormalized());
   }
   return tangents;
 }
