@@ -1,6 +1,7 @@
 #include "core/hand_poses/hand_pose_search.h"
 
 #include "core/cloud/lattice.h"
+#include "core/result/axis_frame.h"
 #include "core/result/polyline.h"
 
 #include <algorithm>
@@ -32,30 +33,10 @@ Eigen::Vector3d preferredApproach(const HandPosesConfig& config, const Eigen::Is
                                : Eigen::Vector3d(T_approach_common.linear().transpose() * direction.normalized());
 }
 
-/// Unit, at right angles to an axis and nearest to a direction; none where that is along the axis.
-std::optional<Eigen::Vector3d> across(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
-{
-  const Eigen::Vector3d part = direction - direction.dot(axis) * axis;
-  constexpr double kAlong = 1e-3;
-  return part.norm() > kAlong * direction.norm() ? std::make_optional<Eigen::Vector3d>(part.normalized())
-                                                 : std::nullopt;
-}
-
 double score(double observed_free, double filled, double aligned, double off_middle)
 {
   const double sum = 1.0 - filled * filled + (1.0 + aligned) / 2 + 1.0 - off_middle;
   return std::clamp(std::isnan(observed_free) ? sum / 3 : (sum + observed_free) / 4, 0.0, 1.0);
-}
-
-AxisFrame inFrame(const Eigen::Isometry3d& T, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis,
-                  const Eigen::Vector3d& first, const Eigen::Vector3d& second)
-{
-  AxisFrame frame;
-  Eigen::Map<Eigen::Vector3d>(frame.origin) = T * origin;
-  Eigen::Map<Eigen::Vector3d>(frame.axis) = T.linear() * axis;
-  Eigen::Map<Eigen::Vector3d>(frame.first) = T.linear() * first;
-  Eigen::Map<Eigen::Vector3d>(frame.second) = T.linear() * second;
-  return frame;
 }
 
 }  // namespace
@@ -147,9 +128,11 @@ void HandPoseSearch::findPlaces(const Config& config, const Eigen::Vector3d& pre
 {
   places_.clear();
   const auto add = [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, double off_middle) {
-    const Eigen::Vector3d normal = across(handle.normal, axis).value_or(axis.unitOrthogonal());
+    constexpr double kAlong = 1e-3;
+    const Eigen::Vector3d normal = normalAcross(axis, handle.normal, kAlong * handle.normal.norm());
     const bool any = preferred.isZero(0.0);
-    const Eigen::Vector3d first = any ? normal : across(-preferred, axis).value_or(normal);
+    const Eigen::Vector3d first =
+        any ? normal : directionAcross(axis, -preferred, kAlong * preferred.norm()).value_or(normal);
     places_.push_back({origin, axis, first, axis.cross(first), any ? Eigen::Vector3d(-normal) : preferred, off_middle});
   };
   add(handle.centroid, handle.axis, 0.0);
@@ -216,7 +199,7 @@ void HandPoseSearch::findDirections(const Place& place, const PreparedViews& vie
       continue;
     }
     GraspPose& hand = candidate.hand;
-    hand.pose.linear() << approach, place.axis.cross(approach), place.axis;
+    hand.pose.linear() = rotationAlong(place.axis, approach);
     hand.pose.translation() = place.origin;
     hand.width = 2 * corridor.radius;
     if (sees) {
@@ -237,7 +220,8 @@ void HandPoseSearch::gatherAround(const Place& place, const PreparedViews& views
   for (std::size_t view = 0; view < views.size(); ++view) {
     const PreparedCloud& cloud = views[view];
     const Eigen::Isometry3d T_view_common = views.T_common_view(view).inverse();
-    const AxisFrame frame = inFrame(T_view_common, place.origin, place.axis, place.first, place.second);
+    const AxisFrame frame =
+        transformed(axisFrame(place.origin, place.axis, {place.first, place.second}), T_view_common);
     SurroundingPoints& around = surroundings_[view];
     around.first.clear();
     around.second.clear();

@@ -1,7 +1,8 @@
 #include "core/handles/bar_fit.h"
 
+#include "core/result/axis_frame.h"
+
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ double weightOf(double residual, double noise)
 std::optional<FittedBar> fitBar(const std::vector<Eigen::Vector3d>& points, const FittedBar& start,
                                 const BarPrior& prior, double noise)
 {
-  const Eigen::Vector3d first = start.axis.unitOrthogonal(), second = start.axis.cross(first);
+  const auto [first, second] = acrossAxis(start.axis);
   Parameters deviations;
   deviations << prior.place, prior.place, prior.tilt, prior.tilt, prior.radius, prior.taper;
   const Parameters prior_weights = (noise / deviations.array()).square();

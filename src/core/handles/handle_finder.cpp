@@ -1,5 +1,6 @@
 #include "core/handles/handle_finder.h"
 
+#include "core/result/axis_frame.h"
 #include "core/result/polyline.h"
 
 #include <algorithm>
@@ -128,9 +129,7 @@ void HandleFinder::describe(const PreparedViews& views, const Config& config, Gr
   const PolylineMiddle middle = middleOf(handle.polyline);
   handle.centroid = middle.point;
   handle.axis = withLargestComponentPositive(middle.direction);
-  const Eigen::Vector3d across = normal - normal.dot(handle.axis) * handle.axis;
-  handle.normal =
-      across.norm() > 1e-6 * static_cast<double>(members_.size()) ? across.normalized() : handle.axis.unitOrthogonal();
+  handle.normal = normalAcross(handle.axis, normal, 1e-6 * static_cast<double>(members_.size()));
   handle.inner_radius = std::min(std::max(handle.inner_radius, handle.radius), config.hand.capture_radius);
 }
 

@@ -1,5 +1,6 @@
 #include "core/shell/axis_slices.h"
 
+#include "core/result/axis_frame.h"
 #include "core/shell/grow_to.h"
 
 #include <algorithm>

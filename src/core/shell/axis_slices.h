@@ -4,18 +4,11 @@
 #include "core/neighborhoods/neighborhoods.h"
 #include "core/shell/cylinder_window.h"
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <vector>
 
 namespace grasp_affordances
 {
-
-inline Eigen::Map<const Eigen::Vector3d> asVector(const double (&coordinates)[3])
-{
-  return Eigen::Map<const Eigen::Vector3d>(coordinates);
-}
 
 /// Slices of one thickness across an axis, one after the other.
 struct Slices

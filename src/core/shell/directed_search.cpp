@@ -1,6 +1,7 @@
 #include "core/shell/directed_search.h"
 
 #include "core/fit/circle.h"
+#include "core/result/axis_frame.h"
 
 #include <Eigen/LU>
 
@@ -29,17 +30,6 @@ Slices makeSlices(const ShellConfig& config, double spacing)
   }
   slices.begin = -slices.thickness * static_cast<double>(slices.count) / 2;
   return slices;
-}
-
-AxisFrame axisFrame(const FittedCylinder& cylinder)
-{
-  const Eigen::Vector3d first = cylinder.axis.unitOrthogonal();
-  AxisFrame frame;
-  Eigen::Map<Eigen::Vector3d>(frame.origin) = cylinder.origin;
-  Eigen::Map<Eigen::Vector3d>(frame.axis) = cylinder.axis;
-  Eigen::Map<Eigen::Vector3d>(frame.first) = first;
-  Eigen::Map<Eigen::Vector3d>(frame.second) = cylinder.axis.cross(first);
-  return frame;
 }
 
 PlaneMoments planeMoments(const PlaneMomentParts& parts)
@@ -74,7 +64,7 @@ void DirectedSearch::lookAlong(const FittedCylinder& cylinder)
   if (frame_ && (cylinder.origin - asVector(frame_->origin)).norm() <= kLargestShift) {
     return;
   }
-  frame_ = axisFrame(cylinder);
+  frame_ = axisFrame(cylinder.origin, cylinder.axis, acrossAxis(cylinder.axis));
   const double reach = hand_.capture_radius + hand_.finger_thickness + (config_.recenter ? kLargestShift : 0.0);
   views_.start(surroundings_, *frame_, slices_, reach);
 }

@@ -1,5 +1,6 @@
 #include "core/tracking/tracked_handle.h"
 
+#include "core/result/axis_frame.h"
 #include "grasp_affordances/localization.h"
 
 #include <Eigen/Eigenvalues>
@@ -139,8 +140,7 @@ void TrackedHandle::average(const GraspHandle& found, const std::vector<const Gr
     axis_scatter_ = handle_.axis * handle_.axis.transpose();
   }
   const Eigen::Vector3d normal = handle_.normal + weight * (found.normal - handle_.normal);
-  const Eigen::Vector3d across = normal - normal.dot(handle_.axis) * handle_.axis;
-  handle_.normal = across.norm() > 1e-6 ? across.normalized() : handle_.axis.unitOrthogonal();
+  handle_.normal = normalAcross(handle_.axis, normal, 1e-6);
 
   handle_.hand_poses = found.hand_poses;
   const AxisCurve curve(handle_);
