@@ -59,7 +59,7 @@ struct GraspHandle
 };
 
 /// The handle in the frame that T leads to.
-void transform(const Eigen::Isometry3d& T, GraspHandle& handle);
+GraspHandle transformed(GraspHandle handle, const Eigen::Isometry3d& T);
 
 /// The tool's frame in the hand's, T_hand_tool: the tool_x, ... of `config`.
 Eigen::Isometry3d toolInHand(const HandPosesConfig& config);

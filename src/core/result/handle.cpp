@@ -5,7 +5,7 @@
 namespace grasp_affordances
 {
 
-void transform(const Eigen::Isometry3d& T, GraspHandle& handle)
+GraspHandle transformed(GraspHandle handle, const Eigen::Isometry3d& T)
 {
   handle.centroid = T * handle.centroid;
   handle.axis = withLargestComponentPositive(T.linear() * handle.axis);
@@ -16,6 +16,7 @@ void transform(const Eigen::Isometry3d& T, GraspHandle& handle)
   for (GraspPose& hand : handle.hand_poses) {
     hand.pose = T * hand.pose;
   }
+  return handle;
 }
 
 Eigen::Isometry3d toolInHand(const HandPosesConfig& config)

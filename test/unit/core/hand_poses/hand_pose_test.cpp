@@ -18,6 +18,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grasp_affordances::test
@@ -365,11 +366,7 @@ struct TableTop
   }
 
   /// A handle given in the scene, in the camera's frame.
-  GraspHandle inCamera(GraspHandle handle) const
-  {
-    transform(T_scene_camera.inverse(), handle);
-    return handle;
-  }
+  GraspHandle inCamera(GraspHandle handle) const { return transformed(std::move(handle), T_scene_camera.inverse()); }
 
   bool anyFrom(const std::vector<GraspPose>& hands, const Vector& approach_scene, double max_angle) const
   {
@@ -656,8 +653,7 @@ TEST(HandPoses, MoveWithTheCommonFrame)
   const Config config;
   const Pose T = at(0.3, -0.2, 0.9) * turned(0.8, Vector(1.0, 2.0, -0.5).normalized());
   for (const GraspHandle& handle : Localizer(config).localize(cloud).handles) {
-    GraspHandle moved = handle;
-    transform(T, moved);
+    const GraspHandle moved = transformed(handle, T);
     const bool flipped = moved.axis.dot(T.linear() * handle.axis) < 0.0;  // its other direction may stand for it now
     const auto hands = search(cloud, config, handle);
     const auto posed = search({{&cloud, T}}, config, moved);

@@ -131,7 +131,7 @@ Handles inScene(const Localization& result, const View& view)
 {
   Handles handles = result.handles;
   for (GraspHandle& handle : handles) {
-    transform(view.T_scene_camera, handle);
+    handle = transformed(std::move(handle), view.T_scene_camera);
   }
   return handles;
 }
