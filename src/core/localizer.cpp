@@ -149,7 +149,7 @@ void Localizer::localize(const std::vector<PosedCloud>& views, Localization& res
     begin = end;
   }
   stopwatch.lap();
-  own.handle_finder.find(own.views, own.config, own.draw.points(), own.draw.size(), result.shells, result.handles,
+  own.handle_finder.find(own.views, own.config, {own.draw.points(), own.draw.size(), result.shells}, result.handles,
                          own.cancellation);
   result.milliseconds.handles = stopwatch.lap();
   for (GraspHandle& handle : result.handles) {

@@ -47,16 +47,15 @@ double median(std::vector<double>& values)
 
 }  // namespace
 
-void HandleFinder::find(const PreparedViews& views, const Config& config, const PreparedViews::SamplePoint* samples,
-                        std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles,
-                        const Cancellation& cancellation)
+void HandleFinder::find(const PreparedViews& views, const Config& config, const SampledShells& found,
+                        std::vector<GraspHandle>& handles, const Cancellation& cancellation)
 {
   samples_.clear();
-  for (std::size_t i = 0; i < sample_count; ++i) {
-    const auto& [view, point] = samples[i];
+  for (std::size_t i = 0; i < found.sample_count; ++i) {
+    const auto& [view, point] = found.samples[i];
     samples_.push_back(views.T_common_view(view) * views[view].cloud->point(point).cast<double>());
   }
-  groups_.update(shells, config.handles, cancellation);
+  groups_.update(found.shells, config.handles, cancellation);
   std::size_t count = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     cancellation.check();
@@ -74,7 +73,7 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
     handle.unseen_for = 0.0;
     members_.clear();
     for (const std::uint32_t i : group) {
-      members_.push_back(&shells[i]);
+      members_.push_back(&found.shells[i]);
     }
     std::sort(members_.begin(), members_.end(), standsBefore);
     describe(views, config, handle);

@@ -19,6 +19,14 @@
 namespace grasp_affordances
 {
 
+/// What was found in the clouds of a moment before handles are looked for.
+struct SampledShells
+{
+  const PreparedViews::SamplePoint* samples;  ///< all points that samples were drawn at
+  std::size_t sample_count;
+  const std::vector<Shell>& shells;  ///< of these samples
+};
+
 /// Groups shells that share an axis into handles, and fits their axis and radius to the cloud's points inside them.
 ///
 /// The score of a handle is the geometric mean of five numbers in [0, 1]:
@@ -37,11 +45,10 @@ class HandleFinder
 {
 public:
   /// The handles of the shells of one localization, the best first, without hand poses.
-  /// @param samples  all points that samples were drawn at
+  /// @param handles  the result; what it held before is replaced, and its memory used again
   /// @throw Cancelled
-  void find(const PreparedViews& views, const Config& config, const PreparedViews::SamplePoint* samples,
-            std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles,
-            const Cancellation& cancellation = Cancellation());
+  void find(const PreparedViews& views, const Config& config, const SampledShells& found,
+            std::vector<GraspHandle>& handles, const Cancellation& cancellation = Cancellation());
 
 private:
   void addSpare(std::vector<GraspHandle>& handles);

@@ -230,7 +230,7 @@ struct Moment
 
   void find(const std::vector<Shell>& shells, Handles& handles)
   {
-    finder.find(views, config, samples.data(), samples.size(), shells, handles);
+    finder.find(views, config, {samples.data(), samples.size(), shells}, handles);
   }
 
   Handles find(const std::vector<Shell>& shells)
