@@ -1,5 +1,6 @@
 #include "core/handles/handle_finder.h"
 
+#include "core/cloud/depth_noise.h"
 #include "core/result/axis_frame.h"
 #include "core/result/polyline.h"
 
@@ -27,14 +28,14 @@ bool standsBefore(const Shell* a, const Shell* b)
   return key(*a) < key(*b);
 }
 
-/// m, one standard deviation of the depth of an Xtion at a point's distance from the nearest sensor.
-double depthNoise(const PreparedViews& views, const Eigen::Vector3d& point)
+/// Standard deviation (m) of the depth at a point, as the nearest sensor measures it.
+double depthNoiseAt(const PreparedViews& views, const Eigen::Vector3d& point)
 {
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t view = 0; view < views.size(); ++view) {
     depth = std::min(depth, (views.T_common_view(view) * views[view].sensor - point).norm());
   }
-  return 0.0008 + 0.0016 * depth * depth;
+  return depthNoise(depth);
 }
 
 /// Reorders the values, of which there is at least one.
@@ -179,7 +180,7 @@ void HandleFinder::fitLine(const PreparedViews& views, GraspHandle& handle)
   BarPrior prior;
   prior.tilt = axis_.round ? 1e-3 : 0.15;
   prior.taper = axis_.round ? 1e-3 : 0.1;
-  const auto fitted = fitBar(near_, bar, prior, depthNoise(views, bar.origin));
+  const auto fitted = fitBar(near_, bar, prior, depthNoiseAt(views, bar.origin));
   if (!fitted || fitted->radius > handle.inner_radius + kMargin) {
     return;
   }
@@ -205,7 +206,7 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
     bar.radius = handle.radius;
     gatherPoints(views, bar.origin, std::hypot(kHalfLength, reach));
     keepAlong(bar, kHalfLength, reach);
-    const auto fitted = fitBar(near_, bar, prior, depthNoise(views, bar.origin));
+    const auto fitted = fitBar(near_, bar, prior, depthNoiseAt(views, bar.origin));
     return fitted && fitted->radius <= reach ? fitted : std::nullopt;
   };
   radii_.clear();
