@@ -41,7 +41,7 @@ double score(double observed_free, double filled, double aligned, double off_mid
 
 }  // namespace
 
-/// See the class. In the hand's frame, metres.
+/// The corridor of a hand, see HandPoseSearch. In the hand's frame, metres.
 struct HandPoseSearch::Corridor
 {
   Corridor(const HandGeometry& hand, const HandPosesConfig& config, double handle_radius)
@@ -52,16 +52,17 @@ struct HandPoseSearch::Corridor
   {
   }
 
-  /// From the axis to its farthest point.
+  /// Distance from the axis to the farthest point of the corridor.
   double reach() const { return std::hypot(begin, half_span); }
 
-  /// Share that a sensor saw through, in any view with a range image.
+  /// The share that a sensor saw through, in any view with a range image.
   double observedFree(const PreparedViews& views, const Eigen::Isometry3d& T_common_hand) const;
 
   double radius, begin, half_span, half_width;
 };
 
-/// Lines along x, each divided evenly where it is in the corridor.
+/// The lattice is made of lines along x. Each line has the same number of points, at even distances within the
+/// corridor.
 double HandPoseSearch::Corridor::observedFree(const PreparedViews& views, const Eigen::Isometry3d& T_common_hand) const
 {
   constexpr int kAlong = 8, kAcross = 4, kWide = 3;
@@ -123,7 +124,8 @@ void HandPoseSearch::search(const PreparedViews& views, const Config& config,
   }
 }
 
-/// The middle first, then outwards, to one side and the other. Axes point the same way along the handle.
+/// The middle comes first, then places farther out, on one side and on the other. All axes point the same way along the
+/// handle.
 void HandPoseSearch::findPlaces(const Config& config, const Eigen::Vector3d& preferred, const GraspHandle& handle)
 {
   places_.clear();
@@ -180,7 +182,7 @@ void HandPoseSearch::searchAt(const Place& place, const PreparedViews& views, co
   candidates_.resize(accepted);
 }
 
-/// Those in which a hand may approach through seen space, whatever is in its way.
+/// Adds the directions in which the corridor was seen through well enough. Points in the corridor are judged later.
 void HandPoseSearch::findDirections(const Place& place, const PreparedViews& views, const HandPosesConfig& wanted,
                                     const Corridor& corridor)
 {
@@ -242,7 +244,7 @@ void HandPoseSearch::gatherAround(const Place& place, const PreparedViews& views
   }
 }
 
-/// Points in a corridor, over the number that blocks it.
+/// The number of points in a corridor, over the number that blocks it.
 double HandPoseSearch::load(const Candidate& candidate, const Corridor& corridor) const
 {
   double load = 0.0;

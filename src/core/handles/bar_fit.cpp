@@ -12,11 +12,11 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr int kParameters = 6;  // place across the axis, tilt about it, radius, taper
+constexpr int kParameters = 6;  // two of the place across the axis, two of the tilt, radius, taper
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Normal = Eigen::Matrix<double, kParameters, kParameters>;
 
-/// Tukey's biweight: nothing beyond a few standard deviations counts.
+/// Tukey's biweight: residuals beyond a few standard deviations have no weight.
 double weightOf(double residual, double noise)
 {
   const double ratio = residual / (4.685 * noise);
@@ -38,7 +38,7 @@ std::optional<FittedBar> fitBar(const std::vector<Eigen::Vector3d>& points, cons
   constexpr int kSteps = 8;
   constexpr double kConverged = 1e-6;  // m
   for (int step = 0; step < kSteps; ++step) {
-    // Coarse at first: what is far off may come near.
+    // Wide at first, so that points count that are near the bar only after some steps.
     const double spread = noise * std::max(1.0, 4.0 - step);
     Normal products = prior_weights.asDiagonal();
     Parameters residuals = -(prior_weights.array() * change.array()).matrix();

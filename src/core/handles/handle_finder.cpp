@@ -16,9 +16,9 @@ namespace
 {
 
 constexpr double kMargin = 0.002;         // m beyond the inner radius, for noise of the surface
-constexpr std::size_t kMostPoints = 300;  // that a bar is fitted to
+constexpr std::size_t kMostPoints = 300;  // of a bar's fit
 
-/// An order that does not depend on that of the samples.
+/// Orders shells by their geometry, so that the order of the samples does not matter.
 bool standsBefore(const Shell* a, const Shell* b)
 {
   const auto key = [](const Shell& s) {
@@ -38,7 +38,7 @@ double depthNoiseAt(const PreparedViews& views, const Eigen::Vector3d& point)
   return depthNoise(depth);
 }
 
-/// Reorders the values, of which there is at least one.
+/// Of at least one value. Reorders the values.
 double median(std::vector<double>& values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -133,7 +133,7 @@ void HandleFinder::describe(const PreparedViews& views, const Config& config, Gr
   handle.inner_radius = std::min(std::max(handle.inner_radius, handle.radius), config.hand.capture_radius);
 }
 
-/// The points that any view measured within a sphere, in the common frame.
+/// Gathers the points that any view measured within a sphere, in the common frame (points_).
 void HandleFinder::gatherPoints(const PreparedViews& views, const Eigen::Vector3d& center, double radius)
 {
   points_.clear();
@@ -147,7 +147,8 @@ void HandleFinder::gatherPoints(const PreparedViews& views, const Eigen::Vector3
   }
 }
 
-/// Of the points that were gathered those about a bar's axis; of many, some that are evenly spread among them.
+/// Selects those of the gathered points that are near a bar's axis (near_). Of more than kMostPoints it takes
+/// kMostPoints at even intervals.
 void HandleFinder::keepAlong(const FittedBar& bar, double half_length, double radius)
 {
   near_.clear();
@@ -189,8 +190,9 @@ void HandleFinder::fitLine(const PreparedViews& views, GraspHandle& handle)
   axis_.polyline.back() = fitted->origin + half_length * fitted->axis;
 }
 
-/// A short bar about each point of a bent axis. Their median radius is the handle's: that of a long bar would be too
-/// large, since it bends away. With that radius the points move to the middle of the surface around them.
+/// Fits a short bar about each point of a bent axis. The median of their radii is the handle's radius. The radius of a
+/// long bar would be too large, because the surface bends away from it. Then bars of that radius are fitted, and their
+/// origins are the points of the axis.
 void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
 {
   constexpr double kHalfLength = 0.01;  // m
@@ -226,7 +228,7 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
   }
 }
 
-/// Of the samples that were drawn within the handle, the share that ended as one of its shells.
+/// The share of the samples drawn within the handle that ended as one of its shells.
 double HandleFinder::agreement(const GraspHandle& handle) const
 {
   const double reach = handle.inner_radius + kMargin;
