@@ -12,9 +12,9 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kShortestPiece = 1e-6;  // m; what is nearer together is one point
+constexpr double kShortestPiece = 1e-6;  // m; points that are nearer to each other are one
 
-/// The points of a handle's polyline without repetitions.
+/// The points of a handle's polyline, where no point is the same as the one before.
 Polyline distinctPoints(const GraspHandle& handle)
 {
   Polyline points;

@@ -18,14 +18,14 @@ namespace grasp_affordances
 class AxisCurve
 {
 public:
-  /// What is nearest to a point.
+  /// The place of the curve that is nearest to a point.
   struct Foot
   {
-    double s = 0.0;         ///< m, below 0 or above length() where the point lies beyond an end
-    double distance = 0.0;  ///< m, from the curve between its ends
+    double s = 0.0;         ///< m, below 0 or above length() for a point beyond an end
+    double distance = 0.0;  ///< m, from the point to the curve between its ends
   };
 
-  /// A straight one about the centroid where the handle has no polyline with a length.
+  /// The curve of a handle's polyline. Where that has no length: a straight curve through the centroid along the axis.
   explicit AxisCurve(const GraspHandle& handle);
 
   /// @param points  from end to end, at least two, no two successive ones equal
@@ -39,7 +39,7 @@ public:
   Eigen::Vector3d direction(double s) const;  ///< unit, towards larger s
   Foot foot(const Eigen::Vector3d& point) const;
 
-  /// So many points, at least two, evenly from one place to the other.
+  /// `count` points, at least two, at even distances from one place to another.
   Polyline spread(double from, double to, std::size_t count) const;
 
 private:
@@ -47,10 +47,11 @@ private:
   void measure();
 
   Polyline points_;
-  std::vector<double> ways_;  ///< to each point
+  std::vector<double> ways_;  // m, along the curve from the first point to each point
 };
 
-/// The straight one that fits points, at least two, with the least squares: from the first of them to the last.
+/// The straight curve fitted to at least two points by least squares. It leads from the first point, projected onto it,
+/// to the last.
 AxisCurve straightCurve(const Polyline& points);
 
 }  // namespace grasp_affordances
