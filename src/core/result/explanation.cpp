@@ -17,7 +17,7 @@ std::uint32_t count(const Localization& localization, Outcome outcome)
   return localization.counts[static_cast<std::size_t>(outcome)];
 }
 
-/// Where most samples ended that are no shells.
+/// Where most of the samples ended that gave no shell.
 Outcome dominating(const Localization& localization)
 {
   static_assert(static_cast<std::size_t>(Outcome::shell) + 1 == kOutcomes, "the shells come last");
@@ -60,7 +60,7 @@ std::string shellsWithoutHandle(const Localization& localization, const Config& 
   return text.str();
 }
 
-/// What it means that a sample ended there, and what to change.
+/// What it means that samples ended there, and which parameter to change.
 std::string meaning(Outcome outcome, const Config& config)
 {
   const std::string capture_radius = millimetres(config.hand.capture_radius);
