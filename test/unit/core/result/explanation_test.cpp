@@ -94,9 +94,9 @@ TEST(Explanation, NamesEachReasonWhyNothingWasSampled)
 {
   const std::pair<NothingSampled, std::string> cases[] = {
       {NothingSampled::no_cloud, "there was no cloud to draw samples from"},
-      {NothingSampled::empty_cloud, "look at the sensor"},
-      {NothingSampled::nothing_measured, "look at the sensor"},
-      {NothingSampled::points_coincide, "look at the sensor"},
+      {NothingSampled::empty_cloud, "check the sensor"},
+      {NothingSampled::nothing_measured, "check the sensor"},
+      {NothingSampled::points_coincide, "check the sensor"},
       {NothingSampled::outside_workspace, "workspace/min_x to workspace/max_z"}};
   ASSERT_EQ(std::size(cases), kNothingSampledReasons);
   for (const auto& [reason, part] : cases) {
@@ -145,9 +145,9 @@ TEST(Explanation, SaysWhyNothingWasSampled)
     return explainNothing(localizer.localize(cloud), localizer.config());
   };
   Cloud cloud;
-  expectSentence(explained(cloud), {"the cloud is empty", "look at the sensor"});
+  expectSentence(explained(cloud), {"the cloud is empty", "check the sensor"});
   cloud.reset(640, 480);
-  expectSentence(explained(cloud), {"all points are NaN, zero or infinite", "look at the sensor"});
+  expectSentence(explained(cloud), {"all points are NaN, zero or infinite", "check the sensor"});
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     cloud.set(i, 0.1F, 0.2F, 1.0F);
   }
