@@ -115,6 +115,7 @@ void Localizer::localize(const std::vector<PosedCloud>& views, Localization& res
   result.points = own.views.measured;
   result.threads = static_cast<std::uint32_t>(own.team->size());
   result.warnings = own.views.warnings;
+  result.nothing_sampled = own.views.nothing_sampled;
   result.view_disagreement = own.views.disagreement;
   const double preparation = stopwatch.lap();
 
@@ -125,7 +126,7 @@ void Localizer::localize(const std::vector<PosedCloud>& views, Localization& res
   result.milliseconds.preparation += preparation;
   stopwatch.lap();
   const SampleDraw& draw = own.loop.draw();
-  own.handle_finder.find(own.views, own.config, draw.points(), draw.size(), result.shells, result.handles,
+  own.handle_finder.find(own.views, own.config, {draw.points(), draw.size(), result.shells}, result.handles,
                          own.cancellation);
   result.milliseconds.handles = stopwatch.lap();
   for (GraspHandle& handle : result.handles) {

@@ -5,6 +5,7 @@
 #include "core/neighborhoods/occlusion.h"
 #include "core/parallel/random.h"
 #include "core/parallel/stopwatch.h"
+#include "core/result/axis_frame.h"
 #include "core/shell/free_space.h"
 
 #include <Eigen/Geometry>
@@ -27,9 +28,8 @@ Eigen::Vector3d normalTowards(const Eigen::Vector3d& sensor, const Eigen::Vector
                               const Eigen::Vector3d& axis)
 {
   const Eigen::Vector3d direction = (sensor - centroid).normalized();
-  const Eigen::Vector3d across = direction - direction.dot(axis) * axis;
-  constexpr double kAlongAxis = 1e-6;  // below this the sensor looks along the axis, and any normal will do
-  return across.norm() > kAlongAxis ? across.normalized() : axis.unitOrthogonal();
+  constexpr double kAlongAxis = 1e-6;  // the sensor looks along the axis: any normal is as good
+  return normalAcross(axis, direction, kAlongAxis);
 }
 
 Eigen::Vector3d meanOfFirst(std::size_t count, const Neighborhood& neighborhood)
@@ -210,8 +210,7 @@ void SampleBlock::fitCylinders(Remaining& samples, const PreparedViews& views, c
 {
   samples.pass([&](Sample& sample) -> std::optional<Outcome> {
     sample.axis = withLargestComponentPositive(sample.axis);
-    const Eigen::Vector3d first = sample.axis.unitOrthogonal();
-    const Eigen::Vector3d second = sample.axis.cross(first);
+    const auto [first, second] = acrossAxis(sample.axis);
     const auto circle = fitCircle(sample.moments, sample.neighborhood->radius, first, second);
     if (!circle) {
       return Outcome::degenerate;

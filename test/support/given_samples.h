@@ -51,7 +51,7 @@ public:
       }
     }
     std::vector<GraspHandle> handles;
-    finder_.find(views_, config_, points.data(), points.size(), shells, handles);
+    finder_.find(views_, config_, {points.data(), points.size(), shells}, handles);
     for (GraspHandle& handle : handles) {
       for (std::uint32_t& shell : handle.shells) {
         shell = samples[shell];

@@ -2,6 +2,7 @@
 
 #include "core/kernels/quadric_curvatures.h"
 #include "core/parallel/random.h"
+#include "core/result/axis_frame.h"
 
 #include <Eigen/Geometry>
 
@@ -55,8 +56,7 @@ PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vecto
 {
   const Eigen::Vector3d gradient = quadric.gradient(x);
   const Eigen::Vector3d normal = gradient.normalized();
-  const Eigen::Vector3d first = normal.unitOrthogonal();
-  const Eigen::Vector3d second = normal.cross(first);
+  const auto [first, second] = acrossAxis(normal);
   const Eigen::Matrix3d shape = quadric.hessian() / gradient.norm();
   const double a = first.dot(shape * first);
   const double b = first.dot(shape * second);

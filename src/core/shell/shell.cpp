@@ -24,7 +24,7 @@ PointThresholds pointThresholds(const ShellConfig& config, double spacing)
 struct ShellSearch::Memory
 {
   ViewSlices views;
-  std::vector<SliceCounts> counts;  // slices, in the shell that was looked at last
+  std::vector<SliceCounts> counts;  // of each slice, in the shell that was looked at last
 };
 
 ShellSearch::ShellSearch() : memory_(std::make_unique<Memory>()) {}

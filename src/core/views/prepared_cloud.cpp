@@ -19,6 +19,11 @@ SphereView unseen(const Neighborhood& neighborhood)
 
 }  // namespace
 
+std::string nothingToLocalize(NothingSampled reason)
+{
+  return std::string("nothing to localize: ") + describe(reason);
+}
+
 void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const Eigen::Isometry3d& T_workspace_cloud,
                            ThreadTeam& team)
 {
@@ -27,17 +32,17 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
   search = nullptr;
   sensor.setZero();
   warnings.clear();
+  nothing_sampled.reset();
   screen.clear();
   hidden_search.reset();
   limited_ = false;
   listMeasured();
   if (measured.empty()) {
-    warnings.emplace_back(cloud->size() == 0 ? "nothing to localize: the cloud is empty"
-                                             : "nothing to localize: all points are NaN, zero or infinite");
+    leaveOut(cloud->size() == 0 ? NothingSampled::empty_cloud : NothingSampled::nothing_measured);
     return;
   }
   if (allCoincide()) {
-    warnings.emplace_back("nothing to localize: all measured points coincide");
+    leaveOut(NothingSampled::points_coincide);
     return;
   }
 
@@ -70,6 +75,12 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
     hidden_image = image->withCloud(hidden.cloud());
     hidden_search.emplace(*hidden_image, 0);
   }
+}
+
+void PreparedCloud::leaveOut(NothingSampled reason)
+{
+  nothing_sampled = reason;
+  warnings.push_back(nothingToLocalize(reason));
 }
 
 void PreparedCloud::listMeasured()

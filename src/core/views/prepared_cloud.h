@@ -2,6 +2,7 @@
 
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/config.h"
+#include "grasp_affordances/localization.h"
 
 #include "core/cloud/range_image.h"
 #include "core/fit/surface_normals.h"
@@ -21,6 +22,9 @@
 
 namespace grasp_affordances
 {
+
+/// The warning of a cloud, or of the clouds of a moment, in which no sample is drawn.
+std::string nothingToLocalize(NothingSampled reason);
 
 /// One cloud, prepared for sampling: what all samples read and none changes. Keeps its memory from cloud to cloud. It
 /// is neither copied nor moved, since its parts refer to one another.
@@ -62,9 +66,11 @@ public:
   std::optional<WindowSearch> hidden_search;   // in `hidden`; none without an image, or where they are not asked for
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // m, in the cloud's frame
   SurfaceNormals normals;                            // for the Normals variation only
+  std::optional<NothingSampled> nothing_sampled;     // why there is nothing to localize; empty where there is something
   std::vector<std::string> warnings;
 
 private:
+  void leaveOut(NothingSampled reason);
   void listMeasured();
   bool allCoincide() const;
   void findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);

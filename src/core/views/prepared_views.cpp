@@ -30,6 +30,7 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
   }
   views_.clear();
   warnings.clear();
+  nothing_sampled = NothingSampled::no_cloud;
   measured = 0;
   disagreement = std::numeric_limits<double>::quiet_NaN();
   std::uint32_t first_point = 0;
@@ -44,6 +45,7 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
     } else if (cloud.search != nullptr) {
       views_.push_back({i + 1, &cloud, views[i].T_common_cloud, first_point});
     }
+    nothing_sampled = std::max(nothing_sampled, cloud.nothing_sampled.value_or(NothingSampled::no_cloud));
     measured += static_cast<std::uint32_t>(cloud.measured.size());
     first_point += static_cast<std::uint32_t>(views[i].cloud->size());
   }
@@ -58,7 +60,8 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
     uncoverHiddenSurfaces(config.hand.finger_thickness, team);
   }
   if (!views_.empty() && !hasSamples()) {
-    warnings.emplace_back("nothing to localize: no measured point lies within the workspace");
+    nothing_sampled = NothingSampled::outside_workspace;
+    warnings.push_back(nothingToLocalize(nothing_sampled));
   }
   if (hasSamples() && config.estimation.estimator == Estimator::normals) {
     for (const View& view : views_) {

@@ -2,6 +2,7 @@
 
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/config.h"
+#include "grasp_affordances/localization.h"
 
 #include "core/neighborhoods/neighborhoods.h"
 #include "core/neighborhoods/sphere_view.h"
@@ -95,6 +96,7 @@ public:
   std::uint32_t measured = 0;                                      ///< points of all clouds
   double disagreement = std::numeric_limits<double>::quiet_NaN();  ///< m, see Localization::view_disagreement
   std::vector<std::string> warnings;
+  NothingSampled nothing_sampled = NothingSampled::no_cloud;  ///< the reason, where there is nothing to draw from
 
 private:
   struct View

@@ -36,6 +36,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace grasp_affordances
 {
@@ -299,7 +300,7 @@ std_msgs::Header LocalizerNodelet::localize(const std_msgs::Header& cloud_header
       shell = transformed(shell, T_target_cloud);
     }
     for (GraspHandle& handle : at.localization.handles) {
-      grasp_affordances::transform(T_target_cloud, handle);
+      handle = transformed(std::move(handle), T_target_cloud);
     }
     header.frame_id = parameters_.target_frame;
   }

@@ -1,5 +1,7 @@
 #include "nodelets/messages/markers.h"
 
+#include "core/result/axis_frame.h"
+#include "core/result/polyline.h"
 #include "nodelets/messages/conversions.h"
 #include "nodelets/messages/score_color.h"
 
@@ -106,7 +108,7 @@ std::vector<Eigen::Vector3d> tangents(const std::vector<Eigen::Vector3d>& line)
 {
   std::vector<Eigen::Vector3d> tangents;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    tangents.push_back((line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0]).stableNormalized());
+    tangents.push_back(chordAround(line, i).stableNormalized());
   }
   return tangents;
 }
@@ -118,8 +120,7 @@ std::vector<std::array<Eigen::Vector3d, kTubeSides>> rings(const std::vector<Eig
   std::vector<std::array<Eigen::Vector3d, kTubeSides>> rings(line.size());
   Eigen::Vector3d normal = along.front().unitOrthogonal();
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const Eigen::Vector3d across = normal - normal.dot(along[i]) * along[i];
-    normal = across.norm() > 1e-6 ? Eigen::Vector3d(across.normalized()) : along[i].unitOrthogonal();
+    normal = normalAcross(along[i], normal, 1e-6);
     const Eigen::Vector3d third = along[i].cross(normal);
     for (int k = 0; k < kTubeSides; ++k) {
       const double angle = 2.0 * M_PI * k / kTubeSides;
