@@ -5,6 +5,7 @@
 #include "core/views/prepared_views.h"
 #include "simulation/placement.h"
 #include "simulation/sensor.h"
+#include "support/points.h"
 #include "support/same_bits.h"
 
 #include <Eigen/Geometry>
@@ -31,14 +32,6 @@ inline XtionModel exactSensor()
 inline Cloud capture(const Scene& scene, const Pose& T_scene_camera = Pose::Identity())
 {
   return Xtion(exactSensor()).capture(scene, T_scene_camera, 1).cloud;
-}
-
-inline Cloud unorganized(Cloud cloud)
-{
-  cloud.width *= cloud.height;
-  cloud.height = 1;
-  cloud.intrinsics.reset();
-  return cloud;
 }
 
 /// A straight handle with its middle at a point.
