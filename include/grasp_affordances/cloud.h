@@ -21,27 +21,27 @@ struct PinholeIntrinsics
   double cy = 0.0;
 };
 
-/// The one expression for the square of a length in single precision: comparisons between results of it are exact.
+/// The square of a length in single precision. All code uses this one expression, so that equal lengths compare equal.
 inline float squaredLength(float x, float y, float z)
 {
   return x * x + y * y + z * z;
 }
 
-/// A point cloud as three contiguous coordinate arrays, row-major where it is organized. Metres, in the frame that its
-/// owner knows; an organized cloud is expected in its optical frame (x right, y down, z forward).
+/// A point cloud as three contiguous coordinate arrays, row-major where it is organized. Metres. The cloud does not
+/// know the name of its frame. An organized cloud is expected in its optical frame (x right, y down, z forward).
 ///
-/// A point is *measured* when the square of its distance from the origin is finite and above zero: NaN and infinite
-/// coordinates, zeros, and coordinates that overflow are "not measured". Those hold NaN in all three arrays.
+/// A point is *measured* when the square of its distance from the origin is finite and above zero. NaN and infinite
+/// coordinates, zeros, and coordinates whose square overflows are not measured: they are NaN in all three arrays.
 struct Cloud
 {
   std::uint32_t width = 0;   ///< columns
   std::uint32_t height = 0;  ///< rows; width or height is at most 1 where the cloud is not organized
   std::vector<float> x, y, z;
 
-  /// Where the sensor stood, in the cloud's frame. Used only where the cloud has no pixels that reproject.
+  /// m, the sensor's place in the cloud's frame. Not used for a range image: the sensor of that is at the origin.
   Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();
 
-  /// Projection of the camera that measured an organized cloud, where it is known; estimated from the points otherwise.
+  /// Of the camera that measured an organized cloud. Where they are not given, they are estimated from the points.
   std::optional<PinholeIntrinsics> intrinsics;
 
   bool organized() const { return width > 1 && height > 1; }
@@ -77,7 +77,7 @@ struct Cloud
 /// One of several clouds of the same moment, and its place among them.
 struct PosedCloud
 {
-  const Cloud* cloud = nullptr;  ///< in a frame of its own: an organized one in its optical frame
+  const Cloud* cloud = nullptr;  ///< in a frame of its own; an organized cloud in its optical frame
   Eigen::Isometry3d T_common_cloud = Eigen::Isometry3d::Identity();  ///< in the range of single precision
 };
 

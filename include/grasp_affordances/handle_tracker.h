@@ -9,16 +9,23 @@
 namespace grasp_affordances
 {
 
-/// Gives handles the same id from cloud to cloud, and smooths them. Deterministic; of one thread.
+/// Gives handles the same id from cloud to cloud, and smooths them. Deterministic. An instance serves one thread at a
+/// time.
 ///
-/// A handle that is found again within the limits of TrackingConfig of where it is known to be keeps its id, also where
-/// it is found shorter or in several pieces. One that is new gets the next id, and is reported once it was found in
-/// `min_hits` clouds; those of the first cloud, of the first one after reset() or after a gap in time longer than
-/// `lifetime`, are reported at once: a single cloud gives handles. A handle that is not found keeps its last state,
-/// with `unseen_for` and without shells, until `lifetime` has passed; where it comes back within five lifetimes it has
-/// its id again. Pieces that stay apart for longer than that are handles of their own.
+/// **Ids.** A handle keeps its id where it is found again within the limits of TrackingConfig, even if it is found
+/// shorter or in several pieces. A new handle gets the next id.
 ///
-/// Without TrackingConfig::track handles pass through as they are, ids and all.
+/// **Reports.** A new handle is reported once it was found in `min_hits` clouds. The handles of some clouds are
+/// reported at once, so that a single cloud gives handles: those of the first cloud, of the first cloud after reset(),
+/// and of the first cloud after a gap in time longer than `lifetime`.
+///
+/// **Handles that are not found.** Such a handle is reported in its last state, without shells, and `unseen_for` says
+/// for how long. After `lifetime` it is no longer reported. If it comes back within five lifetimes, it has its id
+/// again.
+///
+/// **Pieces.** A handle that is found in pieces for longer than `lifetime` is several handles from then on.
+///
+/// Without TrackingConfig::track, handles are returned as they are, with their ids.
 class HandleTracker
 {
 public:
@@ -27,16 +34,17 @@ public:
   HandleTracker(HandleTracker&&) noexcept;
   HandleTracker& operator=(HandleTracker&&) noexcept;
 
-  /// Changes the parameters; what is tracked stays, unless nothing is tracked any more.
+  /// Changes the parameters. Tracked handles stay; with TrackingConfig::track off they are forgotten, as by reset().
   void configure(const TrackingConfig& config);
 
-  /// The handles that are known after a cloud, by id, in the frame of `found`. They remain valid until the next call.
-  /// @param found  in a frame in which handles stand still
-  /// @param stamp  s, of the cloud, of any epoch. An earlier one than the last begins anew, as after reset(). Clouds
-  /// with the same one are averaged
+  /// Takes in the handles of a cloud, and returns the handles that are known then, in the order of their ids. The
+  /// result is in the frame of `found`, and valid until the next call.
+  /// @param found  in a frame in which handles stand still, such as that of the room
+  /// @param stamp  s, of the cloud, since any epoch. A stamp earlier than the last one starts anew, as reset() does.
+  /// Clouds with the same stamp are averaged
   const std::vector<GraspHandle>& update(const std::vector<GraspHandle>& found, double stamp);
 
-  /// Forgets all handles. Ids are not used again.
+  /// Forgets all handles. Their ids are not used again.
   void reset();
 
 private:

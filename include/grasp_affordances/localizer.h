@@ -1,23 +1,16 @@
 #pragma once
 
+#include "grasp_affordances/cancelled.h"
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
 
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 namespace grasp_affordances
 {
-
-/// A localization was told to end early, see Localizer::cancelWhen().
-class Cancelled : public std::runtime_error
-{
-public:
-  Cancelled() : std::runtime_error("the localization was cancelled") {}
-};
 
 /// Localizes enveloping grasp affordances in point clouds (paper, Algorithm 1).
 ///
@@ -35,10 +28,10 @@ public:
   /// Never fails for what a cloud holds: a cloud without a usable point gives no samples, no shells and a warning.
   Localization localize(const Cloud& cloud);
 
-  /// The same into a result whose memory is used again. For organized clouds with intrinsics, of a size seen before,
-  /// nothing is allocated but by what has to grow.
-  /// @param T_workspace_cloud  where the box of WorkspaceConfig is
-  /// @param T_approach_cloud  to the frame in which HandPosesConfig gives the direction of approach
+  /// The same, into a result whose memory is used again. Allocates nothing for an organized cloud with intrinsics, of a
+  /// size seen before, except where a list has to grow.
+  /// @param T_workspace_cloud  from the cloud's frame to that of the box of WorkspaceConfig
+  /// @param T_approach_cloud  from the cloud's frame to that in which HandPosesConfig gives the direction of approach
   void localize(const Cloud& cloud, Localization& result,
                 const Eigen::Isometry3d& T_workspace_cloud = Eigen::Isometry3d::Identity(),
                 const Eigen::Isometry3d& T_approach_cloud = Eigen::Isometry3d::Identity());
@@ -48,22 +41,24 @@ public:
   /// least one view with points in it sees it unoccluded; free space that one view observed is free, and blocks what
   /// another took to be hidden there.
   ///
-  /// Shells are in the common frame, their normals towards the sensor that saw the sample, and `point_index` counts the
-  /// points of all clouds, one cloud after the other. One cloud at the origin gives what it gives alone. One without a
-  /// usable point or with a pose that is not finite is left out, with a warning.
+  /// Shells are in the common frame, and their normals point towards the sensor that saw the sample. `point_index`
+  /// counts the points of all clouds, one cloud after the other. A single cloud at the origin gives the same result as
+  /// without a pose. A cloud without a usable point, or with a pose that is not finite, is left out, with a warning.
+  /// @param T_workspace_common  from the common frame to that of the box of WorkspaceConfig
+  /// @param T_approach_common  from the common frame to that in which HandPosesConfig gives the direction of approach
   void localize(const std::vector<PosedCloud>& views, Localization& result,
                 const Eigen::Isometry3d& T_workspace_common = Eigen::Isometry3d::Identity(),
                 const Eigen::Isometry3d& T_approach_common = Eigen::Isometry3d::Identity());
 
   const Config& config() const;
 
-  /// Goes on with other parameters, as a new instance would, but keeps the working memory.
+  /// Takes other parameters. Results are then those of a new instance; the working memory is kept.
   /// @throw ParameterError for a value outside its range; nothing has changed then.
   void configure(const Config& config);
 
-  /// Lets localize() end early: it throws Cancelled soon after this was true, and its result is then unspecified. The
-  /// function is called from several threads, between pieces of work of some ms, and must not throw. The one piece that
-  /// takes longer, for millions of points, is the preparation of a cloud, with the tree of an unorganized one.
+  /// Lets localize() end early: soon after `wanted` returns true it throws Cancelled, and its result is unspecified.
+  /// `wanted` is called from several threads, between pieces of work of some ms, and must not throw. One piece takes
+  /// longer, for clouds of millions of points: their preparation, with the k-d tree of an unorganized cloud.
   void cancelWhen(std::function<bool()> wanted);
 
 private:

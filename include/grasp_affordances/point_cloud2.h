@@ -9,18 +9,18 @@
 namespace grasp_affordances
 {
 
-/// A cloud, or a file of clouds, that cannot be read. what() is one line with the reason.
+/// Says that a cloud, or a file of clouds, cannot be read. what() is one line with the reason.
 class CloudError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// Points of the largest cloud that is read, 4096 x 4096: working memory grows with their number, by some 50 bytes for
-/// each, and by up to 130 more for each thread.
+/// Number of points of the largest cloud that is read, 4096 x 4096. Working memory grows with the number of points: by
+/// some 50 bytes for each, and by up to 130 bytes more for each thread.
 constexpr std::uint32_t kMostPoints = 1U << 24U;
 
-/// Where a PointCloud2 keeps its coordinates, as it claims; nothing in here has been checked.
+/// Where a PointCloud2 says that it keeps its coordinates. Nothing in here has been checked.
 struct PointCloud2Layout
 {
   struct Coordinate
@@ -41,10 +41,10 @@ struct PointCloud2Layout
   std::size_t data_size = 0;  ///< bytes
 };
 
-/// Copies the points; points that are not measured become NaN. Rows may be padded and coordinates unaligned.
-/// A width or height of zero is an empty cloud, whatever the rest says.
-/// @throw CloudError for a layout that contradicts itself, has no x, y, z of FLOAT32 or FLOAT64, or more than
-/// kMostPoints; before anything is allocated, and without touching the cloud.
+/// Copies the points; points that are not measured become NaN. Rows may be padded and coordinates unaligned. A width or
+/// height of zero makes an empty cloud, whatever the rest of the layout says.
+/// @throw CloudError for a layout that contradicts itself, that lacks x, y or z of FLOAT32 or FLOAT64, or that has more
+/// than kMostPoints. Nothing has been allocated then, and the cloud is as it was.
 void cloudFromLayout(const PointCloud2Layout& layout, Cloud& cloud);
 
 /// Reads the points of a sensor_msgs::PointCloud2 or a pcl::PCLPointCloud2 into a cloud, whose sensor origin and

@@ -6,18 +6,35 @@
 #include "core/parallel/stopwatch.h"
 #include "core/parallel/thread_team.h"
 #include "core/parallel/time_budget.h"
-#include "core/sample_block.h"
-#include "core/sample_draw.h"
+#include "core/sample_loop.h"
 #include "core/views/prepared_views.h"
 
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace grasp_affordances
 {
+namespace
+{
+
+/// Counts where the samples ended, and lists the shells among them.
+void collect(const std::vector<SampleResult>& samples, Localization& result)
+{
+  result.sampled = static_cast<std::uint32_t>(samples.size());
+  for (const SampleResult& sample : samples) {
+    ++result.counts[static_cast<std::size_t>(sample.outcome)];
+    if (sample.outcome == Outcome::shell) {
+      result.shells.push_back(sample.shell);
+    }
+  }
+}
+
+}  // namespace
 
 class Localizer::Implementation
 {
@@ -30,51 +47,14 @@ public:
       team.emplace(new_config.threads);
     }
     config = new_config;
-    blocks.resize(team->size());
-    samples.resize(static_cast<std::size_t>(config.sampling.samples));
-  }
-
-  /// Examines the samples [begin, end), as long as there is time, and adds what they find. They know nothing of one
-  /// another: each writes its own slot.
-  void examine(std::size_t begin, std::size_t end, const TimeBudget& budget, Localization& result)
-  {
-    if (config.estimation.estimator == Estimator::normals) {
-      Stopwatch stopwatch;
-      views.estimateNormals(config, draw.points() + begin, end - begin, *team, cancellation);
-      result.milliseconds.preparation += stopwatch.lap();
-    }
-    for (SampleBlock& block : blocks) {
-      block.times = StageTimes();
-    }
-    constexpr std::size_t kSize = SampleBlock::kSamples;
-    team->forEach((end - begin + kSize - 1) / kSize, [&](std::size_t i, std::size_t member) {
-      const std::size_t first = begin + i * kSize, last = std::min(first + kSize, end);
-      blocks[member].examine(views, config, first, last, draw.points() + first, &samples[first], budget, cancellation);
-    });
-    cancellation.check();
-    for (std::size_t i = begin; i < end; ++i) {
-      ++result.counts[static_cast<std::size_t>(samples[i].outcome)];
-      if (samples[i].outcome == Outcome::shell) {
-        result.shells.push_back(samples[i].shell);
-      }
-    }
-    result.sampled += static_cast<std::uint32_t>(end - begin);
-    for (const SampleBlock& block : blocks) {
-      result.milliseconds.neighborhoods += block.times.neighborhoods;
-      result.milliseconds.occlusion += block.times.occlusion;
-      result.milliseconds.fit += block.times.fit;
-      result.milliseconds.shell += block.times.shell;
-    }
   }
 
   Config config;
   Cancellation cancellation;
   std::optional<ThreadTeam> team;
-  std::vector<PosedCloud> single;  // a cloud without others
+  std::vector<PosedCloud> single;  // the one cloud that localize(cloud, ...) was given
   PreparedViews views;
-  SampleDraw draw;
-  std::vector<SampleBlock> blocks;    // one per thread
-  std::vector<SampleResult> samples;  // one slot per sample
+  SampleLoop loop;
   HandleFinder handle_finder;
   HandPoseSearch hand_pose_search;
 };
@@ -120,7 +100,7 @@ void Localizer::cancelWhen(std::function<bool()> wanted)
   implementation_->cancellation.askInstead(std::move(wanted));
 }
 
-/// AffordanceFind (Algorithm 1), and what becomes of its shells.
+/// AffordanceFind (Algorithm 1); then groups its shells into handles, and searches hand poses for these.
 void Localizer::localize(const std::vector<PosedCloud>& views, Localization& result,
                          const Eigen::Isometry3d& T_workspace_common, const Eigen::Isometry3d& T_approach_common)
 {
@@ -129,26 +109,24 @@ void Localizer::localize(const std::vector<PosedCloud>& views, Localization& res
   const TimeBudget budget(own.config.sampling.time_budget_ms);
   result.shells.clear();
   result.counts.fill(0);
-  result.sampled = 0;
-  result.milliseconds = StageTimes();
   own.cancellation.begin();
   own.cancellation.check();
   own.views.update(views, own.config, T_workspace_common, *own.team);
   result.points = own.views.measured;
   result.threads = static_cast<std::uint32_t>(own.team->size());
   result.warnings = own.views.warnings;
+  result.nothing_sampled = own.views.nothing_sampled;
   result.view_disagreement = own.views.disagreement;
-  result.milliseconds.preparation = stopwatch.lap();
+  const double preparation = stopwatch.lap();
 
   own.cancellation.check();
-  own.draw.start(own.views, own.config);
-  for (std::size_t begin = 0; begin < own.draw.size();) {
-    const std::size_t end = own.draw.drawRound(own.views, own.config, own.samples.data(), *own.team, own.cancellation);
-    own.examine(begin, end, budget, result);
-    begin = end;
-  }
+  own.loop.run({own.views, own.config, *own.team, budget, own.cancellation});
+  collect(own.loop.results(), result);
+  result.milliseconds = own.loop.times();
+  result.milliseconds.preparation += preparation;
   stopwatch.lap();
-  own.handle_finder.find(own.views, own.config, own.draw.points(), own.draw.size(), result.shells, result.handles,
+  const SampleDraw& draw = own.loop.draw();
+  own.handle_finder.find(own.views, own.config, {draw.points(), draw.size(), result.shells}, result.handles,
                          own.cancellation);
   result.milliseconds.handles = stopwatch.lap();
   for (GraspHandle& handle : result.handles) {

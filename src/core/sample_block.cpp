@@ -5,6 +5,7 @@
 #include "core/neighborhoods/occlusion.h"
 #include "core/parallel/random.h"
 #include "core/parallel/stopwatch.h"
+#include "core/result/axis_frame.h"
 #include "core/shell/free_space.h"
 
 #include <Eigen/Geometry>
@@ -22,14 +23,13 @@ namespace
 constexpr std::optional<Outcome> kGoesOn;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The part of the direction to the sensor that is at right angles to the axis.
+/// Unit vector: the part of the direction to the sensor that is at right angles to the axis.
 Eigen::Vector3d normalTowards(const Eigen::Vector3d& sensor, const Eigen::Vector3d& centroid,
                               const Eigen::Vector3d& axis)
 {
   const Eigen::Vector3d direction = (sensor - centroid).normalized();
-  const Eigen::Vector3d across = direction - direction.dot(axis) * axis;
   constexpr double kAlongAxis = 1e-6;  // the sensor looks along the axis: any normal is as good
-  return across.norm() > kAlongAxis ? across.normalized() : axis.unitOrthogonal();
+  return normalAcross(axis, direction, kAlongAxis);
 }
 
 Eigen::Vector3d meanOfFirst(std::size_t count, const Neighborhood& neighborhood)
@@ -62,30 +62,31 @@ void SampleBlock::Remaining::pass(Stage&& stage)
   size_ = kept;
 }
 
-void SampleBlock::examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-                          const PreparedViews::SamplePoint* points, SampleResult* results, const TimeBudget& budget,
-                          const Cancellation& cancellation)
+void SampleBlock::examine(const SampleContext& context, const SampleSpan& span)
 {
+  const PreparedViews& views = context.views;
+  const Config& config = context.config;
+  const TimeBudget& budget = context.budget;
   Remaining all;
   spheres_.resize(kSamples * views.size());
-  for (std::uint64_t i = begin; i < end; ++i) {
-    Sample& sample = samples_[i - begin];
-    sample.number = i;
-    sample.point = points[i - begin];
-    sample.spheres = &spheres_[(i - begin) * views.size()];
-    sample.result = &results[i - begin];
+  for (std::size_t i = 0; i < span.count; ++i) {
+    Sample& sample = samples_[i];
+    sample.number = span.first + i;
+    sample.point = span.points[i];
+    sample.spheres = &spheres_[i * views.size()];
+    sample.result = &span.results[i];
     sample.result->outcome = Outcome::shell;
     all.add(sample);
   }
-  // To the letter, with no distance, the filter rejects most samples: then it is worth a look before their points are
-  // gathered.
+  // Without a distance, as in the paper, the filter rejects most samples. Then it pays to filter before their points
+  // are gathered.
   const bool looks = config.occlusion.filter && config.occlusion.min_distance_in_front == 0.0 &&
                      config.neighborhood.kind == NeighborhoodKind::radius && views.allHaveImages();
   if (looks) {
     look(all, views, config, budget);
     filterOccluded(all, views, config);
   }
-  for (std::size_t first = 0; first < all.size() && !cancellation.wanted(); first += kFittedAtOnce) {
+  for (std::size_t first = 0; first < all.size() && !context.cancellation.wanted(); first += kFittedAtOnce) {
     Remaining samples;
     for (std::size_t i = first; i < std::min(first + kFittedAtOnce, all.size()); ++i) {
       all[i].neighborhood = &neighborhoods_[i - first];
@@ -173,10 +174,11 @@ void SampleBlock::estimateCurvatureAxes(Remaining& samples, const PreparedViews&
     if (!sample.fit) {
       return Outcome::degenerate;
     }
-    const auto curvature =
-        medianCurvature(sample.fit->quadric, *sample.neighborhood, views[sample.point.view].sensor,
-                        static_cast<std::size_t>(config.estimation.curvature_points),
-                        randomBits(config.sampling.seed, sample.number, 1), curvature_scratch_, sample.ownPoints());
+    const auto curvature = medianCurvature(sample.fit->quadric, *sample.neighborhood,
+                                           {views[sample.point.view].sensor, sample.ownPoints()},
+                                           {static_cast<std::size_t>(config.estimation.curvature_points),
+                                            randomBits(config.sampling.seed, sample.number, 1)},
+                                           curvature_scratch_);
     if (!curvature) {
       return Outcome::degenerate;
     }
@@ -203,13 +205,12 @@ void SampleBlock::estimatePrincipalAxes(Remaining& samples, const PreparedViews&
   });
 }
 
-/// The cylinder through each neighborhood, about its axis.
+/// Fits a cylinder about its axis to each neighborhood.
 void SampleBlock::fitCylinders(Remaining& samples, const PreparedViews& views, const Config& config)
 {
   samples.pass([&](Sample& sample) -> std::optional<Outcome> {
     sample.axis = withLargestComponentPositive(sample.axis);
-    const Eigen::Vector3d first = sample.axis.unitOrthogonal();
-    const Eigen::Vector3d second = sample.axis.cross(first);
+    const auto [first, second] = acrossAxis(sample.axis);
     const auto circle = fitCircle(sample.moments, sample.neighborhood->radius, first, second);
     if (!circle) {
       return Outcome::degenerate;

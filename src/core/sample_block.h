@@ -29,29 +29,45 @@ struct SampleResult
   Shell shell;  // set where the outcome is a shell
 };
 
-/// The body of Algorithm 1's loop, for a block of samples at a time: each stage is done for all that are left before
-/// the next, since quadrics are fitted several at once. Keeps its working memory: one instance per thread.
+/// What all samples of a localization share.
+struct SampleContext
+{
+  const PreparedViews& views;
+  const Config& config;
+  const TimeBudget& budget;
+  const Cancellation& cancellation;
+};
+
+/// Samples that follow one another.
+struct SampleSpan
+{
+  std::uint64_t first;  ///< number of the first one in the localization; its random draws depend on it
+  std::size_t count;
+  const PreparedViews::MeasuredPoint* points;  ///< where each sample is
+  SampleResult* results;                       ///< where each sample ended, out
+};
+
+/// The body of Algorithm 1's loop, for a block of samples at a time. Each stage is done for all samples that are left
+/// before the next stage begins, since several quadrics are fitted at once. Keeps its working memory: one instance per
+/// thread.
 class SampleBlock
 {
 public:
   static constexpr std::size_t kSamples = 64;
 
-  /// Examines the samples [begin, end), at most kSamples. The first is drawn at points[0], its result goes to
-  /// results[0]. Where the budget is spent, those that are left are out of time. Cancelled, it returns early, with
-  /// results that are not valid.
-  void examine(const PreparedViews& views, const Config& config, std::uint64_t begin, std::uint64_t end,
-               const PreparedViews::SamplePoint* points, SampleResult* results, const TimeBudget& budget,
-               const Cancellation& cancellation = Cancellation());
+  /// Examines at most kSamples samples and writes their results. Once the budget is spent, the samples that are left
+  /// end as out of time. Once the localization is cancelled, it returns early, and the results are not valid.
+  void examine(const SampleContext& context, const SampleSpan& span);
 
-  StageTimes times;  ///< summed over the samples since it was last reset
+  StageTimes times;  ///< of the stages of a sample, summed over all samples; callers reset it
 
 private:
   struct Sample
   {
     std::uint64_t number;
-    PreparedViews::SamplePoint point;
+    PreparedViews::MeasuredPoint point;
     SphereView* spheres;         // by view
-    Neighborhood* neighborhood;  // of those that are fitted at once
+    Neighborhood* neighborhood;  // one of neighborhoods_
     Moments moments;
     std::optional<TaubinFit> fit;
     Eigen::Vector3d axis;  // unit
@@ -60,7 +76,7 @@ private:
     FittedCylinder cylinder;
     SampleResult* result;
 
-    /// How many of the neighborhood's points, the first ones, the view saw that the sample was drawn from.
+    /// Number of the neighborhood's points that the sample's own view saw. They come first.
     std::size_t ownPoints() const { return spheres[point.view].survey.points; }
   };
 
@@ -72,7 +88,7 @@ private:
     Sample& operator[](std::size_t i) const { return *samples_[i]; }
     void add(Sample& sample) { samples_[size_++] = &sample; }
 
-    /// Calls stage(sample) for each; one that is given an outcome ends there.
+    /// Calls stage(sample) for each sample. A sample for which it returns an outcome ends there.
     template <typename Stage>
     void pass(Stage&& stage);
 
@@ -97,7 +113,7 @@ private:
   std::array<Sample, kSamples> samples_;
   std::vector<SphereView> spheres_;
   std::array<Neighborhood, kFittedAtOnce> neighborhoods_;
-  Neighborhood part_;  // of one of several views
+  Neighborhood part_;  // the points of one of several views
   TaubinFitter fitter_;
   CurvatureScratch curvature_scratch_;
   ShellSearch shell_search_;

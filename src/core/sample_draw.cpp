@@ -12,16 +12,16 @@ namespace
 {
 
 constexpr std::size_t kLaterRounds = 2;
-constexpr std::uint64_t kStream = 3;  // of random bits
+constexpr std::uint64_t kStream = 3;  // the first of the streams of random bits that are used here
 constexpr std::uint32_t kNoPlace = std::numeric_limits<std::uint32_t>::max();
 
-/// In [-1, 1).
+/// A number in [-1, 1).
 double symmetric(std::uint64_t bits)
 {
   return static_cast<double>(bits >> 11U) * 0x1p-52 - 1.0;
 }
 
-/// Whether a shell was found or nearly so.
+/// Whether a sample found a shell, or nearly did.
 bool promising(Outcome outcome)
 {
   return outcome == Outcome::shell || outcome == Outcome::too_short || outcome == Outcome::unobserved_gap ||
@@ -38,8 +38,8 @@ void SampleDraw::start(const PreparedViews& views, const Config& config)
     first_ =
         std::max<std::size_t>(1, static_cast<std::size_t>(config.sampling.first_share * static_cast<double>(size_)));
   }
-  drawn_ = 0;
   uniform_ = 0;
+  round_ends_.clear();
   points_.resize(size_);
   place_of_.resize(size_);
 }
@@ -47,17 +47,19 @@ void SampleDraw::start(const PreparedViews& views, const Config& config)
 std::size_t SampleDraw::drawRound(const PreparedViews& views, const Config& config, const SampleResult* results,
                                   ThreadTeam& team, const Cancellation& cancellation)
 {
-  const std::size_t begin = drawn_;
-  places_.clear();
-  if (begin == 0) {
-    drawn_ = first_;
-  } else if (begin < size_) {
-    findPlaces(views, config, results, cancellation);
-    drawn_ = std::min(size_, begin + (size_ - first_ + kLaterRounds - 1) / kLaterRounds);
-    shareOut(static_cast<std::size_t>((1.0 - config.sampling.uniform_share) * static_cast<double>(drawn_ - begin)));
+  const std::size_t begin = drawn();
+  if (begin == size_) {
+    return begin;
   }
-  // Draws near places and others take turns.
-  const std::size_t round = drawn_ - begin, near = places_.empty() ? 0 : places_.back().draws;
+  std::size_t end = first_;
+  places_.clear();
+  if (begin > 0) {
+    findPlaces(views, config, results, cancellation);
+    end = std::min(size_, begin + (size_ - first_ + kLaterRounds - 1) / kLaterRounds);
+    shareOut(static_cast<std::size_t>((1.0 - config.sampling.uniform_share) * static_cast<double>(end - begin)));
+  }
+  // Samples near places and others take turns.
+  const std::size_t round = end - begin, near = places_.empty() ? 0 : places_.back().draws;
   const auto nearBefore = [&](std::size_t place_in_round) { return place_in_round * near / round; };
   around_.resize(team.size());
   constexpr std::size_t kBatch = 64;
@@ -66,25 +68,26 @@ std::size_t SampleDraw::drawRound(const PreparedViews& views, const Config& conf
       const std::size_t before = nearBefore(j);
       points_[begin + j] = nearBefore(j + 1) > before
                                ? drawNear(views, config, begin + j, static_cast<std::uint32_t>(before), around_[member])
-                               : views.samplePoint(config.sampling, uniform_ + j - before);
+                               : views.drawAnywhere(config.sampling, uniform_ + j - before);
     }
   });
   uniform_ += round - near;
-  return drawn_;
+  round_ends_.push_back(end);
+  return end;
 }
 
-/// Of the samples drawn so far.
+/// Gathers the promising ones of the samples so far into places.
 void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, const SampleResult* results,
                             const Cancellation& cancellation)
 {
   const double reach = config.hand.capture_radius;
-  for (std::size_t i = 0; i < drawn_; ++i) {
+  for (std::size_t i = 0; i < drawn(); ++i) {
     cancellation.check();
     place_of_[i] = kNoPlace;
     if (!promising(results[i].outcome)) {
       continue;
     }
-    const PreparedViews::SamplePoint& sample = points_[i];
+    const PreparedViews::MeasuredPoint& sample = points_[i];
     const Eigen::Vector3d point =
         views.T_common_view(sample.view) * views[sample.view].cloud->point(sample.point).cast<double>();
     auto place = std::find_if(places_.begin(), places_.end(), [&](const Place& other) {
@@ -104,7 +107,7 @@ void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, co
     place.samples = 0;
   }
   members_.resize(members);
-  for (std::size_t i = 0; i < drawn_; ++i) {
+  for (std::size_t i = 0; i < drawn(); ++i) {
     if (place_of_[i] != kNoPlace) {
       Place& place = places_[place_of_[i]];
       members_[place.first + place.samples++] = static_cast<std::uint32_t>(i);
@@ -112,11 +115,11 @@ void SampleDraw::findPlaces(const PreparedViews& views, const Config& config, co
   }
 }
 
-/// Shares out at most so many draws among the places.
+/// Shares out at most so many samples among the places.
 void SampleDraw::shareOut(std::size_t draws)
 {
-  constexpr double kMostDraws = 32.0;    // for a place in a round
-  constexpr std::uint32_t kEnough = 20;  // shells
+  constexpr double kMostDraws = 32.0;    // samples for a place in a round
+  constexpr std::uint32_t kEnough = 20;  // shells with which a place gets no more samples
   const auto weight = [](const Place& place) { return place.shells < kEnough ? 1.0 / (1.0 + place.shells) : 0.0; };
   double sum = 0.0;
   for (const Place& place : places_) {
@@ -132,24 +135,26 @@ void SampleDraw::shareOut(std::size_t draws)
   }
 }
 
-/// A measured point near one of a place's samples; in the image, where there is one. @param draw  number of the draw
-/// in its round, which decides on the place
-PreparedViews::SamplePoint SampleDraw::drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
-                                                std::uint32_t draw, Neighborhood& around) const
+/// Draws a measured point near one of a place's samples: near in the image, or near in space without an image.
+/// @param i  number of the sample
+/// @param draw  number of this draw among those near places in its round; it decides on the place
+/// @param around  working memory
+PreparedViews::MeasuredPoint SampleDraw::drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
+                                                  std::uint32_t draw, Neighborhood& around) const
 {
   const std::uint64_t seed = config.sampling.seed;
   const auto place =
       std::find_if(places_.begin(), places_.end(), [draw](const Place& candidate) { return draw < candidate.draws; });
   const std::uint32_t member = randomIndex(randomBits(seed, i, kStream), place->samples);
-  const PreparedViews::SamplePoint origin = points_[members_[place->first + member]];
+  const PreparedViews::MeasuredPoint origin = points_[members_[place->first + member]];
   const PreparedCloud& prepared = views[origin.view];
   const Eigen::Vector3f center = prepared.cloud->point(origin.point);
-  const double half = std::sqrt(3.0) * config.sampling.spread;  // of a uniform distribution
+  const double half = std::sqrt(3.0) * config.sampling.spread;  // m, half width of a uniform distribution
   if (!prepared.image) {
     prepared.search->withinRadius(center, static_cast<float>(half), around);
     const std::uint32_t drawn =
         around.index()[randomIndex(randomBits(seed, i, kStream + 1), static_cast<std::uint32_t>(around.size()))];
-    return prepared.allows(drawn) ? PreparedViews::SamplePoint{origin.view, drawn} : origin;
+    return prepared.allows(drawn) ? PreparedViews::MeasuredPoint{origin.view, drawn} : origin;
   }
   const double half_pixels = half / prepared.image->spacing(center.z());
   const auto width = static_cast<std::int64_t>(prepared.cloud->width);

@@ -17,55 +17,66 @@
 namespace grasp_affordances
 {
 
-/// Which points the samples of a localization are drawn at, round after round.
+/// Draws the points of a localization's samples, round after round.
 ///
-/// The first round looks everywhere. With importance sampling the samples of later rounds are a mixture: some go on as
-/// those of the first; the rest are drawn near samples that ended as a shell, or nearly so: with a clear gap over too
-/// short a length, or one that was not seen well enough. These samples are gathered into places, and a place gets the
-/// more the fewer shells it has: what was hit once is looked at closely, what is known well is left alone.
-/// What the places do not need is drawn like the first ones, too.
+/// The first round looks everywhere. With importance sampling the later rounds are a mixture. Some of their samples are
+/// drawn as in the first round. The others are drawn near promising samples of the rounds before: those that ended as a
+/// shell, or nearly so, with a clear gap over too short a length, or with one that was not seen well enough. Promising
+/// samples that are near to one another make up a place. The fewer shells a place has, the more samples are drawn
+/// there: a part that was hit once is looked at closely, and one that has many shells is left alone. Samples that the
+/// places do not need are drawn as in the first round.
 ///
-/// Keeps its memory.
+/// Keeps its memory from localization to localization.
 class SampleDraw
 {
 public:
   /// Starts over, for other clouds.
   void start(const PreparedViews& views, const Config& config);
 
-  /// Samples of all rounds.
+  /// Number of samples of all rounds.
   std::size_t size() const { return size_; }
 
-  /// Draws the next round. @param results  of the samples of the rounds before
-  /// @return the number of samples drawn by then: the same as before where all rounds are over
+  /// Draws the next round; nothing, where all rounds are over.
+  /// @param results  of the samples that were drawn before, in their order
+  /// @return the number of samples that are drawn now
   /// @throw Cancelled
   std::size_t drawRound(const PreparedViews& views, const Config& config, const SampleResult* results, ThreadTeam& team,
                         const Cancellation& cancellation = Cancellation());
 
-  const PreparedViews::SamplePoint* points() const { return points_.data(); }
+  /// The points, in the order of the samples: size() of them, of which those drawn so far are valid.
+  const PreparedViews::MeasuredPoint* points() const { return points_.data(); }
+
+  /// By round, the number of samples that were drawn when it ended.
+  const std::vector<std::size_t>& roundEnds() const { return round_ends_; }
 
 private:
   /// Promising samples that are near to one another.
   struct Place
   {
-    Eigen::Vector3d center;  // m, of the sample that it began with
-    std::uint32_t samples;   // number of them
-    std::uint32_t shells;    // of these
-    std::uint32_t first;     // in members_
-    std::uint32_t draws;     // that go to this place and those before it
+    Eigen::Vector3d center;  // m, of its first sample
+    std::uint32_t samples;   // number of its samples
+    std::uint32_t shells;    // number of its samples that ended as a shell
+    std::uint32_t first;     // of its samples in members_
+    std::uint32_t draws;     // number of samples of the next round at this place and those before it
   };
 
   void findPlaces(const PreparedViews& views, const Config& config, const SampleResult* results,
                   const Cancellation& cancellation);
   void shareOut(std::size_t draws);
-  PreparedViews::SamplePoint drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
-                                      std::uint32_t draw, Neighborhood& around) const;
+  PreparedViews::MeasuredPoint drawNear(const PreparedViews& views, const Config& config, std::uint64_t i,
+                                        std::uint32_t draw, Neighborhood& around) const;
 
-  std::size_t size_ = 0, first_ = 0;
-  std::size_t drawn_ = 0, uniform_ = 0;  // samples so far, and those among them that are drawn like the first ones
-  std::vector<PreparedViews::SamplePoint> points_;
+  std::size_t drawn() const { return round_ends_.empty() ? 0 : round_ends_.back(); }
+
+  std::size_t size_ = 0;
+  std::size_t first_ = 0;    // number of samples of the first round
+  std::size_t uniform_ = 0;  // number of samples so far that were drawn as in the first round
+  std::vector<std::size_t> round_ends_;
+  std::vector<PreparedViews::MeasuredPoint> points_;
   std::vector<Place> places_;
-  std::vector<std::uint32_t> place_of_, members_;  // of each sample, where it has one; samples by place
-  std::vector<Neighborhood> around_;               // one per thread
+  std::vector<std::uint32_t> place_of_;  // by sample: its place, or kNoPlace
+  std::vector<std::uint32_t> members_;   // samples, place after place
+  std::vector<Neighborhood> around_;     // one per thread
 };
 
 }  // namespace grasp_affordances

@@ -1,6 +1,6 @@
 #include "evaluation/handle_errors.h"
 
-#include "evaluation/polyline.h"
+#include "core/result/polyline.h"
 
 #include <cmath>
 

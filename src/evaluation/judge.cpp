@@ -1,6 +1,6 @@
 #include "evaluation/judge.h"
 
-#include "evaluation/polyline.h"
+#include "core/result/polyline.h"
 #include "simulation/grasp_definition.h"
 
 #include <array>

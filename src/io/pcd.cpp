@@ -1,22 +1,19 @@
 #include "io/pcd.h"
 
-#include <pcl/common/io.h>
+#include "io/pcd_header.h"
+
 #include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <locale>
-#include <map>
-#include <sstream>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -24,31 +21,6 @@ namespace grasp_affordances
 {
 namespace
 {
-
-constexpr std::int64_t kMaxHeaderSize = 65536;  // bytes; PCL writes a few hundred
-const char* const kPadding = "_";               // name of fields that hold nothing
-
-using Words = std::vector<std::string>;
-
-enum class Encoding
-{
-  ascii,
-  binary,
-  compressed
-};
-
-struct Header
-{
-  std::vector<pcl::PCLPointField> fields;
-  std::uint64_t point_step = 0;        // bytes
-  std::uint64_t values_per_point = 0;  // numbers in a line of an ascii file
-  std::uint64_t width = 0;
-  std::uint64_t height = 0;
-  SensorPose viewpoint;
-  Encoding encoding = Encoding::ascii;
-  std::size_t size = 0;  // bytes of the header itself
-  std::uint64_t points() const { return width * height; }
-};
 
 /// Keeps PCL's own messages off stderr.
 class SilentPcl
@@ -63,204 +35,8 @@ private:
   pcl::console::VERBOSITY_LEVEL level_;
 };
 
-Words split(const std::string& line)
-{
-  std::istringstream stream(line);
-  Words words;
-  for (std::string word; stream >> word;) {
-    words.push_back(word);
-  }
-  return words;
-}
-
-std::int64_t parseInteger(const std::string& key, const std::string& word, std::int64_t min = 0)
-{
-  constexpr std::int64_t kMax = std::numeric_limits<std::uint32_t>::max();
-  std::int64_t value = 0;
-  const char* end = word.data() + word.size();
-  const auto result = std::from_chars(word.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end || value < min || value > kMax) {
-    throw CloudError("PCD header: " + key + " '" + word + "' is no integer from " + std::to_string(min) + " to " +
-                     std::to_string(kMax));
-  }
-  return value;
-}
-
-/// The header's entries by key, up to and with DATA.
-class Entries
-{
-public:
-  Entries(std::istream& file, std::size_t& size)
-  {
-    std::string text(kMaxHeaderSize, '\0');
-    file.read(&text[0], static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    std::size_t begin = 0;
-    while (words_.count("DATA") == 0) {
-      const std::size_t end = text.find('\n', begin);
-      if (end == std::string::npos) {
-        throw CloudError(words_.empty() ? "no PCD file" : "the PCD header ends without a DATA line");
-      }
-      add(split(text.substr(begin, end - begin)));
-      begin = end + 1;
-    }
-    size = begin;
-  }
-
-  bool has(const std::string& key) const { return words_.count(key) != 0; }
-
-  const Words& words(const std::string& key) const
-  {
-    const auto entry = words_.find(key);
-    if (entry == words_.end()) {
-      throw CloudError("the PCD header has no " + key + " line");
-    }
-    return entry->second;
-  }
-
-  std::uint64_t count(const std::string& key) const
-  {
-    const Words& values = words(key);
-    if (values.size() != 1) {
-      throw CloudError("PCD header: " + key + " needs one value, it has " + std::to_string(values.size()));
-    }
-    return static_cast<std::uint64_t>(parseInteger(key, values.front()));
-  }
-
-private:
-  void add(Words words)
-  {
-    if (words.empty() || words.front().front() == '#') {
-      return;
-    }
-    std::string key = words.front() == "COLUMNS" ? "FIELDS" : words.front();
-    static const Words kKeys{"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
-                             "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
-    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-      throw CloudError(words_.empty() ? "no PCD file" : "PCD header: a line follows " + last_ + " that has no PCD key");
-    }
-    last_ = key;
-    words.erase(words.begin());
-    if (!words_.emplace(key, std::move(words)).second) {
-      throw CloudError("PCD header: two lines " + key);
-    }
-  }
-
-  std::map<std::string, Words> words_;
-  std::string last_;
-};
-
-/// Values of SIZE, TYPE or COUNT: one per field. Files of old versions leave the line out.
-Words perField(const Entries& entries, const std::string& key, std::size_t fields, const char* default_value)
-{
-  if (!entries.has(key)) {
-    return Words(fields, default_value);
-  }
-  const Words& words = entries.words(key);
-  if (words.size() != fields) {
-    throw CloudError("PCD header: " + key + " has " + std::to_string(words.size()) + " values for " +
-                     std::to_string(fields) + " fields");
-  }
-  return words;
-}
-
-void parseFields(const Entries& entries, Header& header)
-{
-  const Words& names = entries.words("FIELDS");
-  if (names.empty()) {
-    throw CloudError("PCD header: FIELDS names no field");
-  }
-  if (entries.has("SIZE") != entries.has("TYPE")) {
-    throw CloudError("PCD header: SIZE and TYPE are of use together only");
-  }
-  const Words sizes = perField(entries, "SIZE", names.size(), "4");
-  const Words types = perField(entries, "TYPE", names.size(), "F");
-  const Words counts = perField(entries, "COUNT", names.size(), "1");
-  std::int64_t offset = 0;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    // PCL writes padding that steps backwards before a field whose offset is less than that of the one before it.
-    const bool may_step_back = names[i] == kPadding && header.encoding == Encoding::binary;
-    const std::int64_t count = parseInteger("COUNT", counts[i], may_step_back ? -kMaxHeaderSize : 1);
-    const std::int64_t size = parseInteger("SIZE", sizes[i]);
-    const int datatype = size > 8 || types[i].size() != 1 ? -1 : pcl::getFieldType(static_cast<int>(size), types[i][0]);
-    if (datatype < 0) {
-      throw CloudError("PCD header: field " + names[i] + " has SIZE " + sizes[i] + " and TYPE " + types[i] +
-                       ", which is no type of PCL's");
-    }
-    pcl::PCLPointField field;
-    field.name = names[i];
-    field.offset = static_cast<std::uint32_t>(offset);
-    field.datatype = static_cast<std::uint8_t>(datatype);
-    field.count = static_cast<std::uint32_t>(count);
-    header.fields.push_back(field);
-    header.values_per_point += static_cast<std::uint64_t>(count);
-    offset += size * count;
-    if (offset < 1) {
-      throw CloudError("PCD header: COUNT " + counts[i] + " steps back over the start of the point");
-    }
-  }
-  header.point_step = static_cast<std::uint64_t>(offset);
-  for (const auto& field : header.fields) {
-    const std::uint64_t size = std::uint64_t(pcl::getFieldSize(field.datatype)) * field.count;
-    if (field.name != kPadding && field.offset + size > header.point_step) {
-      throw CloudError("PCD header: field " + field.name + " lies outside the point's " +
-                       std::to_string(header.point_step) + " bytes");
-    }
-  }
-}
-
-void parseExtent(const Entries& entries, Header& header)
-{
-  const std::uint64_t points = entries.count("POINTS");
-  header.width = entries.has("WIDTH") ? entries.count("WIDTH") : points;
-  header.height = entries.has("HEIGHT") ? entries.count("HEIGHT") : 1;
-  if (header.points() != points) {
-    throw CloudError("PCD header: WIDTH " + std::to_string(header.width) + " times HEIGHT " +
-                     std::to_string(header.height) + " is not POINTS " + std::to_string(points));
-  }
-}
-
-SensorPose parseViewpoint(const Words& words)
-{
-  std::array<double, 7> values{};
-  bool valid = words.size() == values.size();
-  for (std::size_t i = 0; valid && i < values.size(); ++i) {
-    std::istringstream stream(words[i]);
-    stream.imbue(std::locale::classic());
-    valid = (stream >> values[i]) && stream.eof();
-  }
-  if (!valid) {
-    throw CloudError("PCD header: VIEWPOINT needs seven finite numbers (tx ty tz qw qx qy qz)");
-  }
-  return {{values[0], values[1], values[2]}, Eigen::Quaterniond(values[3], values[4], values[5], values[6])};
-}
-
-Encoding parseEncoding(const Words& words)
-{
-  static const std::map<std::string, Encoding> kEncodings{
-      {"ascii", Encoding::ascii}, {"binary", Encoding::binary}, {"binary_compressed", Encoding::compressed}};
-  const auto encoding = words.size() == 1 ? kEncodings.find(words.front()) : kEncodings.end();
-  if (encoding == kEncodings.end()) {
-    throw CloudError("PCD header: DATA is not one of ascii, binary, binary_compressed");
-  }
-  return encoding->second;
-}
-
-Header readHeader(std::istream& file)
-{
-  Header header;
-  const Entries entries(file, header.size);
-  header.encoding = parseEncoding(entries.words("DATA"));
-  parseFields(entries, header);
-  parseExtent(entries, header);
-  if (entries.has("VIEWPOINT")) {
-    header.viewpoint = parseViewpoint(entries.words("VIEWPOINT"));
-  }
-  return header;
-}
-
 /// @param most  points that so many bytes can hold at most
-void checkPromise(const Header& header, std::uint64_t most, std::uint64_t body_size)
+void checkPromise(const PcdHeader& header, std::uint64_t most, std::uint64_t body_size)
 {
   if (header.points() > most) {
     throw CloudError("the PCD header promises " + std::to_string(header.points()) + " points of " +
@@ -273,7 +49,7 @@ void checkPromise(const Header& header, std::uint64_t most, std::uint64_t body_s
 }
 
 /// A cloud with the header's layout and zeros for data.
-pcl::PCLPointCloud2 makeCloud(const Header& header)
+pcl::PCLPointCloud2 makeCloud(const PcdHeader& header)
 {
   pcl::PCLPointCloud2 cloud;
   cloud.fields = header.fields;
@@ -294,7 +70,7 @@ void read(std::istream& file, void* data, std::uint64_t size)
 }
 
 /// PCL reads words that are no numbers, and lines that lack some, as zeros.
-void checkAsciiPoints(const Header& header, std::istream& body)
+void checkAsciiPoints(const PcdHeader& header, std::istream& body)
 {
   std::uint64_t points = 0;
   for (std::string line; points < header.points() && std::getline(body, line);) {
@@ -325,7 +101,7 @@ void checkAsciiPoints(const Header& header, std::istream& body)
   }
 }
 
-pcl::PCLPointCloud2 readAscii(const Header& header, std::istream& file, std::uint64_t body_size)
+pcl::PCLPointCloud2 readAscii(const PcdHeader& header, std::istream& file, std::uint64_t body_size)
 {
   checkPromise(header, (body_size + 1) / (2 * header.values_per_point), body_size);  // a digit and a separator each
   checkAsciiPoints(header, file);
@@ -338,7 +114,7 @@ pcl::PCLPointCloud2 readAscii(const Header& header, std::istream& file, std::uin
   return cloud;
 }
 
-pcl::PCLPointCloud2 readBinary(const Header& header, std::istream& file, std::uint64_t body_size)
+pcl::PCLPointCloud2 readBinary(const PcdHeader& header, std::istream& file, std::uint64_t body_size)
 {
   checkPromise(header, body_size / header.point_step, body_size);
   pcl::PCLPointCloud2 cloud = makeCloud(header);
@@ -347,11 +123,11 @@ pcl::PCLPointCloud2 readBinary(const Header& header, std::istream& file, std::ui
 }
 
 /// The body is one LZF block, field after field, behind its compressed and its uncompressed size.
-pcl::PCLPointCloud2 readCompressed(const Header& header, std::istream& file, std::uint64_t body_size)
+pcl::PCLPointCloud2 readCompressed(const PcdHeader& header, std::istream& file, std::uint64_t body_size)
 {
   constexpr std::uint64_t kLzfMaxRatio = 264 / 3;  // a back reference of 3 bytes stands for at most 264
   for (const auto& field : header.fields) {
-    if (field.name == kPadding) {
+    if (field.name == kPcdPadding) {
       throw CloudError("the compressed PCD file has padding fields, which PCL misplaces");
     }
   }
@@ -379,18 +155,18 @@ pcl::PCLPointCloud2 readCompressed(const Header& header, std::istream& file, std
   return cloud;
 }
 
-pcl::PCLPointCloud2 readPoints(const Header& header, std::istream& file, std::uint64_t body_size)
+pcl::PCLPointCloud2 readPoints(const PcdHeader& header, std::istream& file, std::uint64_t body_size)
 {
   if (header.points() == 0) {
     return makeCloud(header);
   }
   const SilentPcl silent;
   switch (header.encoding) {
-    case Encoding::ascii:
+    case PcdEncoding::ascii:
       return readAscii(header, file, body_size);
-    case Encoding::binary:
+    case PcdEncoding::binary:
       return readBinary(header, file, body_size);
-    case Encoding::compressed:
+    case PcdEncoding::compressed:
       break;
   }
   return readCompressed(header, file, body_size);
@@ -426,11 +202,11 @@ pcl::PCLPointCloud2 readPcd(const std::string& path, SensorPose* viewpoint)
   if (file_size == 0) {
     throw CloudError("is empty");
   }
-  const Header header = readHeader(file);
+  const PcdHeader header = readPcdHeader(file);
   file.clear();
   file.seekg(static_cast<std::streamoff>(header.size));
   pcl::PCLPointCloud2 cloud = readPoints(header, file, file_size - header.size);
-  const auto is_padding = [](const pcl::PCLPointField& field) { return field.name == kPadding; };
+  const auto is_padding = [](const pcl::PCLPointField& field) { return field.name == kPcdPadding; };
   cloud.fields.erase(std::remove_if(cloud.fields.begin(), cloud.fields.end(), is_padding), cloud.fields.end());
   if (viewpoint != nullptr) {
     *viewpoint = header.viewpoint;

@@ -1,5 +1,6 @@
 #include "rendering/picture.h"
 
+#include "core/result/polyline.h"
 #include "rendering/canvas.h"
 #include "rendering/label_place.h"
 
@@ -53,7 +54,7 @@ std::vector<Polyline> tubeRings(const Polyline& line, double radius)
 {
   std::vector<Polyline> rings;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const Eigen::Vector3d along = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+    const Eigen::Vector3d along = chordAround(line, i);
     const Eigen::Vector3d axis = along.norm() > 0.0 ? Eigen::Vector3d(along.normalized()) : Eigen::Vector3d::UnitZ();
     rings.push_back(ring(line[i], axis, axis.unitOrthogonal(), radius));
   }

@@ -6,7 +6,7 @@
 #include "core/neighborhoods/occlusion.h"
 #include "core/parallel/random.h"
 #include "core/views/hidden_surfaces.h"
-#include "core/views/sampling.h"
+#include "core/views/point_screen.h"
 #include "grasp_affordances/point_cloud2.h"
 
 #include <benchmark/benchmark.h>
@@ -95,8 +95,8 @@ std::vector<Stage> sampleStages()
       {"sample/median_curvature",
        [](Workbench& bench) {
          const StageSample& sample = bench.nextSample();
-         benchmark::DoNotOptimize(medianCurvature(sample.fit.quadric, sample.neighborhood, Eigen::Vector3d::Zero(), 50,
-                                                  1, bench.curvature_scratch));
+         benchmark::DoNotOptimize(medianCurvature(sample.fit.quadric, sample.neighborhood, {Eigen::Vector3d::Zero()},
+                                                  {50, 1}, bench.curvature_scratch));
        }},
       {"sample/pca_axis",
        [](Workbench& bench) { benchmark::DoNotOptimize(pointsAxis(bench.nextSample().neighborhood)); }},
@@ -199,7 +199,8 @@ void Workbench::addSample(std::uint32_t point)
   if (!fit) {
     return;
   }
-  const auto curvature = medianCurvature(fit->quadric, neighborhood, Eigen::Vector3d::Zero(), 50, 1, curvature_scratch);
+  const auto curvature =
+      medianCurvature(fit->quadric, neighborhood, {Eigen::Vector3d::Zero()}, {50, 1}, curvature_scratch);
   const auto cylinder = curvature ? fitCylinder(neighborhood, curvature->axis) : std::nullopt;
   if (!cylinder) {
     return;

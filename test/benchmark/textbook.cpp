@@ -1,6 +1,6 @@
 #include "benchmark/textbook.h"
 
-#include "core/views/sampling.h"
+#include "core/views/stratified_draw.h"
 
 #include <lapacke.h>
 #include <pcl/common/centroid.h>
@@ -392,7 +392,7 @@ Localization Pipeline::localize(const PclCloud::ConstPtr& cloud)
   result.sampled = measured.empty() ? 0U : static_cast<std::uint32_t>(config_.sampling.samples);
   for (std::uint32_t i = 0; i < result.sampled; ++i) {
     Shell shell;
-    const Outcome outcome = frame.examine(samplePoint(measured, {}, config_.sampling, i), random, shell);
+    const Outcome outcome = frame.examine(drawStratified(measured, {}, config_.sampling, i), random, shell);
     ++result.counts[static_cast<std::size_t>(outcome)];
     if (outcome == Outcome::shell) {
       result.shells.push_back(shell);

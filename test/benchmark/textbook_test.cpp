@@ -7,7 +7,7 @@
 #include "core/fit/curvature.h"
 #include "core/fit/quadric.h"
 #include "core/neighborhoods/neighborhoods.h"
-#include "core/views/sampling.h"
+#include "core/views/stratified_draw.h"
 #include "evaluation/judge.h"
 #include "grasp_affordances/localizer.h"
 #include "grasp_affordances/parameters.h"
@@ -54,7 +54,7 @@ std::vector<Neighborhood> sampledNeighborhoods(const Cloud& cloud, int count)
   std::vector<Neighborhood> neighborhoods;
   for (int i = 0; neighborhoods.size() < static_cast<std::size_t>(count); ++i) {
     Neighborhood neighborhood;
-    const std::uint32_t sample = samplePoint(measured, {}, config.sampling, static_cast<std::uint64_t>(i));
+    const std::uint32_t sample = drawStratified(measured, {}, config.sampling, static_cast<std::uint64_t>(i));
     search->withinRadius(cloud.point(sample), static_cast<float>(config.hand.capture_radius), neighborhood);
     if (neighborhood.size() >= 50) {
       neighborhoods.push_back(std::move(neighborhood));
@@ -78,7 +78,7 @@ TEST(Textbook, FitsTheSameToTheSamePoints)
     const auto all = static_cast<int>(neighborhood.size());  // of the points, so that none is drawn
     const auto curvature = textbook::medianCurvature(*quadric, points, all, random);
     const auto expected =
-        medianCurvature(fit->quadric, neighborhood, Eigen::Vector3d::Zero(), neighborhood.size(), 0, scratch);
+        medianCurvature(fit->quadric, neighborhood, {Eigen::Vector3d::Zero()}, {neighborhood.size(), 0}, scratch);
     ASSERT_TRUE(curvature && expected);
     EXPECT_NEAR(curvature->magnitude / neighborhood.radius, expected->median, 1e-6 / neighborhood.radius);
     EXPECT_LT(lineAngle(curvature->axis, expected->axis), 1e-4);
@@ -176,9 +176,7 @@ TEST(Textbook, FindsTheAffordancesOfATable)
 
 TEST(Textbook, SearchesACloudWithoutPixelsInATree)
 {
-  Cloud cloud = captureScene("table", 1).cloud;
-  cloud.width *= cloud.height;
-  cloud.height = 1;
+  const Cloud cloud = unorganized(captureScene("table", 1).cloud);
   Config config = presetConfig("paper");
   config.estimation.estimator = Estimator::pca;
   config.sampling.samples = 300;

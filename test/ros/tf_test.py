@@ -14,7 +14,8 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
-from helpers import TIME_FACTOR, Listener, Process, coordinates, published, rotated, serialized, wait_until
+from helpers import (TIME_FACTOR, Listener, Process, coordinates, processor_time, published, rotated, serialized,
+                     wait_until)
 
 CAMERA = 'camera_optical'
 OUTPUTS = {'shells': CylindricalShellArray, 'markers': MarkerArray, 'statistics': LocalizationStatistics}
@@ -201,6 +202,35 @@ class Tf(unittest.TestCase):
         in_room = [applied(T_ROOM_CAMERA, coordinates(self.table)[shell.point_index]) for shell in shells[:20]]
         for shell, point in zip(shells, in_room):
             self.assertLess(math.dist(vector(shell.centroid), (point[0] + 1, point[1], point[2])), 0.1)
+
+    def test_a_cloud_has_one_deadline_for_all_its_transforms(self):
+        timeout = 2.0
+        with Localizer('localizer', '_target_frame:=map', '_fixed_frame:=world', '_transform_timeout:=%g' % timeout,
+                       '_sampling/samples:=100') as localizer:
+            self.connect()
+            stamp = self.publish()
+            # The first transform comes within the cloud's time, the second one after it: though less than the timeout
+            # after the first.
+            time.sleep(0.7 * timeout)
+            self.moving.publish([transform('map', 'room', (0, 0, 0), stamp=stamp)])
+            time.sleep(0.7 * timeout)
+            self.moving.publish([transform('world', 'map', (0, 0, 0), stamp=stamp)])
+            wait_until(lambda: 'cloud dropped for want of a transform' in localizer.output() or localizer.answered(),
+                       'the end of the cloud')
+            self.assertFalse(localizer.answered())
+            # All transforms are known now.
+            statistics = localizer.answer('statistics', self.publish(stamp))
+        self.assertEqual((statistics.clouds_processed, statistics.clouds_without_transform), (1, 1))
+
+    def test_nothing_is_localized_that_cannot_be_published(self):
+        with Localizer('localizer', '_fixed_frame:=nowhere', '_transform_timeout:=0.05',
+                       '_sampling/samples:=1000000', '_sampling/importance:=false') as localizer:
+            self.connect()
+            before = processor_time(localizer)
+            self.publish()
+            wait_until(lambda: 'cloud dropped for want of a transform' in localizer.output(), 'complaint', timeout=60)
+            # A million samples take some seconds.
+            self.assertLess(processor_time(localizer) - before, 0.5 * TIME_FACTOR)
 
     def test_transforms_out_of_order(self):
         with Localizer('localizer', '_target_frame:=map') as localizer:

@@ -7,9 +7,9 @@
 #include "core/handles/handle_finder.h"
 #include "core/parallel/thread_team.h"
 #include "core/parallel/time_budget.h"
-#include "core/sample_block.h"
+#include "core/sample_loop.h"
+#include "core/views/point_screen.h"
 #include "core/views/prepared_views.h"
-#include "core/views/sampling.h"
 #include "support/points.h"
 
 #include <algorithm>
@@ -22,9 +22,9 @@
 namespace grasp_affordances::test
 {
 
-using SamplePoints = std::vector<PreparedViews::SamplePoint>;
+using MeasuredPoints = std::vector<PreparedViews::MeasuredPoint>;
 
-/// Algorithm 1 from the neighborhoods on, with samples that are given rather than drawn.
+/// Algorithm 1 with samples at given points, in place of drawn ones.
 class GivenSamples
 {
 public:
@@ -33,21 +33,14 @@ public:
     views_.update(clouds, config_, Eigen::Isometry3d::Identity(), team_);
   }
 
-  std::vector<SampleResult> examine(const SamplePoints& points)
+  std::vector<SampleResult> examine(const MeasuredPoints& points)
   {
-    if (config_.estimation.estimator == Estimator::normals) {
-      views_.estimateNormals(config_, points.data(), points.size(), team_);
-    }
-    std::vector<SampleResult> results(points.size());
-    for (std::size_t begin = 0; begin < points.size(); begin += SampleBlock::kSamples) {
-      const std::size_t end = std::min(begin + SampleBlock::kSamples, points.size());
-      block_.examine(views_, config_, begin, end, points.data() + begin, results.data() + begin, TimeBudget(0.0));
-    }
-    return results;
+    loop_.examine({views_, config_, team_, TimeBudget(0.0), Cancellation()}, points);
+    return loop_.results();
   }
 
-  /// The handles of these samples, without hand poses. Their shells count the results.
-  std::vector<GraspHandle> handles(const SamplePoints& points, const std::vector<SampleResult>& results)
+  /// The handles of these samples, without hand poses. The indices of their shells are those of the results.
+  std::vector<GraspHandle> handles(const MeasuredPoints& points, const std::vector<SampleResult>& results)
   {
     std::vector<Shell> shells;
     std::vector<std::uint32_t> samples;
@@ -58,7 +51,7 @@ public:
       }
     }
     std::vector<GraspHandle> handles;
-    finder_.find(views_, config_, points.data(), points.size(), shells, handles);
+    finder_.find(views_, config_, {points.data(), points.size(), shells}, handles);
     for (GraspHandle& handle : handles) {
       for (std::uint32_t& shell : handle.shells) {
         shell = samples[shell];
@@ -67,8 +60,8 @@ public:
     return handles;
   }
 
-  /// Points of a sample's neighborhood by their indices, in ascending order. Of one cloud only.
-  std::vector<std::uint32_t> neighborhood(const PreparedViews::SamplePoint& point)
+  /// Indices of the points of a sample's neighborhood, in ascending order. For one cloud only.
+  std::vector<std::uint32_t> neighborhood(const PreparedViews::MeasuredPoint& point)
   {
     SphereView sphere;
     views_.gather(point, config_, true, neighborhood_, &sphere, part_);
@@ -83,7 +76,7 @@ private:
   Config config_;
   ThreadTeam team_;
   PreparedViews views_;
-  SampleBlock block_;
+  SampleLoop loop_;
   HandleFinder finder_;
   Neighborhood neighborhood_, part_;
 };
@@ -94,7 +87,8 @@ inline std::vector<PosedCloud> alone(const Cloud& cloud)
   return {{&cloud, Eigen::Isometry3d::Identity()}};
 }
 
-/// Points of an organized cloud, three in four where it falls away on both sides, for there are the shells.
+/// Draws points of an organized cloud. Three of four are points where it falls away on both sides, since the shells are
+/// there.
 inline std::vector<std::uint32_t> somePoints(const Cloud& cloud, const Config& config, std::size_t count,
                                              Random& random)
 {
@@ -118,9 +112,9 @@ inline std::vector<std::uint32_t> somePoints(const Cloud& cloud, const Config& c
   return points;
 }
 
-inline SamplePoints samplesOf(const std::vector<std::uint32_t>& points, std::size_t view = 0)
+inline MeasuredPoints samplesOf(const std::vector<std::uint32_t>& points, std::size_t view = 0)
 {
-  SamplePoints samples;
+  MeasuredPoints samples;
   for (const std::uint32_t point : points) {
     samples.push_back({view, point});
   }

@@ -57,7 +57,16 @@ inline Cloud cloudOf(const Points& points)
   return cloud;
 }
 
-/// All the cloud's points within a sphere, by looking at each.
+/// A cloud without its rows, and without the intrinsics of the camera: no range image. Points keep their indices.
+inline Cloud unorganized(Cloud cloud)
+{
+  cloud.width = static_cast<std::uint32_t>(cloud.size());
+  cloud.height = 1;
+  cloud.intrinsics.reset();
+  return cloud;
+}
+
+/// All points of a cloud within a sphere, found by looking at each point.
 inline Neighborhood bruteForceNeighborhood(const Cloud& cloud, const Eigen::Vector3f& center, float radius)
 {
   Neighborhood neighborhood;
@@ -90,7 +99,7 @@ inline Points cylinderPoints(double radius, double arc, double length, std::size
   return points;
 }
 
-/// A cloud as it is in another frame.
+/// A cloud in another frame.
 inline Cloud moved(const Cloud& cloud, const Eigen::Isometry3d& T)
 {
   Cloud result = cloud;

@@ -192,7 +192,7 @@ inline void conclude(const std::string& property, const Tally& tally)
 }
 
 /// The points of a cloud that were measured, as one that is not organized. @param from  their indices in the cloud
-inline Cloud unorganized(const Cloud& cloud, std::vector<std::uint32_t>& from)
+inline Cloud measuredPointsOf(const Cloud& cloud, std::vector<std::uint32_t>& from)
 {
   from.clear();
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {

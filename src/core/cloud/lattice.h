@@ -35,7 +35,7 @@ public:
     }
   }
 
-  /// Calls visit(i, point, measured) for the points whose pixel measured something; i is the point's number.
+  /// Calls visit(i, point, measured) for each point whose pixel measured something; i is the number of the point.
   template <typename Visitor>
   void visitMeasured(const RangeImage& image, Visitor&& visit)
   {

@@ -66,7 +66,8 @@ void check(const PointCloud2Layout& layout)
   }
 }
 
-/// Copies a row's coordinate. A double that no float represents becomes NaN; what else is not measured stays.
+/// Copies one coordinate of a row. A double beyond the range of floats becomes NaN; other values that are not measured
+/// are copied as they are.
 template <typename T>
 void copyCoordinate(const std::uint8_t* address, std::size_t step, std::size_t count, float* to)
 {

@@ -1,7 +1,6 @@
 #include "core/cloud/range_image.h"
 
 #include "core/kernels/ray_sums.h"
-#include "core/parallel/thread_team.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +13,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Focal length and principal point of the pixels' regression on the slopes; empty for slopes that do not differ.
+/// Focal length and principal point by regression of the pixels on the slopes. Empty where all slopes are the same.
 std::optional<std::pair<double, double>> fitLine(double points, double slope, double slope2, double pixel,
                                                  double product)
 {
@@ -26,7 +25,7 @@ std::optional<std::pair<double, double>> fitLine(double points, double slope, do
   return std::make_pair(focal_length, (pixel - focal_length * slope) / points);
 }
 
-// Sums are taken over blocks of rows and then over the blocks, the same ones for any number of threads.
+// Sums are taken over blocks of rows, and then over the blocks. The blocks are the same for any number of threads.
 constexpr std::size_t kBlocks = 64;
 
 /// Calls task(rows, block) for every block of the cloud's rows.

@@ -2,6 +2,8 @@
 
 #include "grasp_affordances/cloud.h"
 
+#include "core/parallel/thread_team.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -10,8 +12,6 @@
 
 namespace grasp_affordances
 {
-
-class ThreadTeam;
 
 /// Half-open rectangle of pixels: columns [u_begin, u_end), rows [v_begin, v_end).
 struct PixelWindow
@@ -27,32 +27,34 @@ struct ReprojectionFit
   double max_residual = 0.0;  ///< pixels, the larger of the column's and the row's
 };
 
-/// Least-squares intrinsics of an organized cloud: regression of the pixel coordinates on x/z and y/z.
-/// Empty where they are undetermined (no points, points of one column or row only) or where a point has z <= 0.
-/// @param team shares the work, without influence on the result; none: the caller's thread does it.
+/// Least-squares intrinsics of an organized cloud: regression of the pixel coordinates on x/z and y/z. Empty where the
+/// points do not determine them (no points, or points of one column or row only), or where a point has z <= 0.
+/// @param team  does the work, without influence on the result; null: the caller's thread does it
 std::optional<ReprojectionFit> estimateIntrinsics(const Cloud& cloud, ThreadTeam* team = nullptr);
 
-/// The residual of given intrinsics. Empty where one of them is not finite, or a point has z <= 0.
+/// The residual of given intrinsics. Empty where one of the intrinsics is not finite, or a point has z <= 0.
 std::optional<ReprojectionFit> checkIntrinsics(const Cloud& cloud, const PinholeIntrinsics& intrinsics,
                                                ThreadTeam* team = nullptr);
 
-/// An organized cloud seen as what it was measured as: a range image, whose pixels its points reproject to. Refers to
-/// the cloud, which must outlive it. Safe to read from many threads.
+/// An organized cloud as a range image: each point projects to its own pixel. Refers to the cloud, which must outlive
+/// it. Safe to read from many threads.
 class RangeImage
 {
 public:
-  /// Points further than this (pixels) from their pixel show that the cloud is not in its optical frame.
+  /// Largest distance (pixels) of a point from its own pixel. A larger one shows that the cloud is not in its optical
+  /// frame.
   static constexpr double kMaxResidual = 4.0;
 
-  /// Longest side (pixels): working memory of each thread grows with it.
+  /// Longest side (pixels); the working memory of each thread grows with it.
   static constexpr std::uint32_t kLongestSide = 16384;
 
-  /// Empty where the cloud is not organized or too long, or its points do not reproject; `warning` then says why.
-  /// Intrinsics that the cloud carries and that do not fit are replaced by estimated ones, with a warning. Allocates
-  /// nothing but warnings.
+  /// Empty where the cloud is not organized, where a side is too long, or where points are too far from their pixels;
+  /// `warning` then says why. Where the cloud's own intrinsics do not fit, they are estimated, with a warning.
+  /// Allocates nothing but warnings.
   static std::optional<RangeImage> create(const Cloud& cloud, std::string& warning, ThreadTeam* team = nullptr);
 
-  /// Another cloud of the same size, each point of which is on its pixel's ray, seen by the same camera.
+  /// The range image of another cloud of the same size by the same camera. Each of its points must be on its pixel's
+  /// ray.
   RangeImage withCloud(const Cloud& cloud) const
   {
     RangeImage image = *this;
@@ -62,10 +64,10 @@ public:
 
   const Cloud& cloud() const { return *cloud_; }
   const PinholeIntrinsics& intrinsics() const { return intrinsics_; }
-  double margin() const { return margin_; }  ///< pixels, by which points may be off their own
+  double margin() const { return margin_; }  ///< pixels, by which points may be off their own pixel
 
-  /// The pixels that a sphere projects to: contains every measured point within the sphere. Empty for a center (m, in
-  /// the range of single precision) that is not finite.
+  /// The pixels that a sphere projects to; they contain every measured point within the sphere. Empty for a center (m,
+  /// in the range of single precision) that is not finite.
   PixelWindow window(const Eigen::Vector3d& center, double radius) const;
 
   /// Index of the pixel that a point (m) falls on; empty outside the image and behind the sensor.
@@ -79,7 +81,7 @@ private:
 
   const Cloud* cloud_;
   PinholeIntrinsics intrinsics_;
-  double margin_;  // pixels, by which a window is grown so that it holds points off their pixel
+  double margin_;  // pixels; windows are larger by as much, so that they hold points that are off their pixel
 };
 
 }  // namespace grasp_affordances

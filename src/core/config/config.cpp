@@ -11,7 +11,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Refuses what lies outside its range. NaN lies outside every range.
+/// Refuses values outside their range. NaN lies outside every range.
 class RangeCheck
 {
 public:
@@ -127,7 +127,7 @@ void validate(const Config& config)
   checkInterval("z", config.workspace.min_z, config.workspace.max_z);
   const double steps = config.hand.capture_radius / config.shell.radius_step;
   const double slices = config.shell.measure_length ? config.shell.max_length / config.shell.length_resolution : 1.0;
-  constexpr double kMostCells = 1e6;  // of the table in which the shell search counts points
+  constexpr double kMostCells = 1e6;  // radii times slices for which a shell search counts points
   if (steps * slices > kMostCells) {
     std::ostringstream message;
     message << "shell/radius_step: " << config.shell.radius_step << " m, with shell/length_resolution "

@@ -13,7 +13,7 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr std::size_t kMostBytes = 1000000;  // of a file; one with every parameter and its comment has 6000
+constexpr std::size_t kMostBytes = 1000000;  // of a file; one with every parameter and its comment has 10000
 
 using Values = std::map<std::string, YAML::Node>;
 
@@ -21,7 +21,7 @@ using Values = std::map<std::string, YAML::Node>;
 void flatten(const YAML::Node& map, const std::string& prefix, Values& values)
 {
   for (const auto& entry : map) {
-    const auto name = prefix + oneLine(entry.first.as<std::string>());  // an error that begins with it says it
+    const auto name = prefix + oneLine(entry.first.as<std::string>());  // errors begin with the name
     if (entry.second.IsMap() && prefix.empty()) {
       flatten(entry.second, name + "/", values);
     } else {

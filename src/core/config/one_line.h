@@ -8,8 +8,8 @@
 namespace grasp_affordances
 {
 
-/// A message that quotes what somebody else wrote, as one line that can be read: spaces for control characters, and
-/// without its middle where it is long.
+/// Makes one readable line of a message that quotes text from outside: control characters become spaces, and a long
+/// message loses its middle.
 inline std::string oneLine(std::string text)
 {
   constexpr std::size_t kLongest = 400, kEnd = 150;

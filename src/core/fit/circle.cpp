@@ -107,7 +107,7 @@ std::optional<Circle> fitCircleTaubin(const PlaneMoments& moments)
   Circle circle;
   circle.mean = Eigen::Vector2d(moments.x, moments.y) / n;
 
-  // From the origin to the mean.
+  // Moments about the mean, from those about the origin.
   const Eigen::Vector2d& mean = circle.mean;
   const double squared_mean = mean.squaredNorm(), square = (moments.xx + moments.yy) / n;
   Eigen::Matrix2d products;
@@ -123,7 +123,7 @@ std::optional<Circle> fitCircleTaubin(const PlaneMoments& moments)
     return std::nullopt;
   }
 
-  // The smallest root of the characteristic polynomial; Newton's method from zero cannot pass it.
+  // The smallest root of the characteristic polynomial. Newton's method starts at zero and cannot pass it.
   const double a3 = 4.0 * variance, a2 = -3.0 * variance * variance - fourth;
   const double a1 = (fourth - variance * variance) * variance + 4.0 * determinant * variance - third.squaredNorm();
   const Eigen::Matrix2d adjoint = variance * Eigen::Matrix2d::Identity() - scatter;

@@ -16,8 +16,9 @@ namespace grasp_affordances
 namespace
 {
 
-/// Unit eigenvector of an extreme eigenvalue that is well apart from its neighbor, in closed form but for the root of a
-/// cubic: less than half the cost of the full decomposition. Empty where it is not well apart.
+/// The unit eigenvector of an extreme eigenvalue that is well apart from the next one. All but the root of a cubic is
+/// in closed form, which costs less than half as much as the full decomposition. Empty where the two are not well
+/// apart.
 std::optional<Eigen::Vector3d> clearEigenvector(const Eigen::Matrix3d& symmetric, Extreme extreme)
 {
   // The eigenvalues are mean + scale t with t^3 - 3 t - 2 r = 0 and t in [-2, 2], of which [-2, -1] has the smallest.
@@ -41,7 +42,8 @@ std::optional<Eigen::Vector3d> clearEigenvector(const Eigen::Matrix3d& symmetric
     return std::nullopt;
   }
 
-  // What is at right angles to all rows of the singular matrix: the product of two that are far from parallel.
+  // The eigenvector is at right angles to all rows of the singular matrix: the product of two that are far from
+  // parallel.
   deviator.diagonal().array() -= scale * t;
   const Eigen::Vector3d products[] = {deviator.col(0).cross(deviator.col(1)), deviator.col(1).cross(deviator.col(2)),
                                       deviator.col(2).cross(deviator.col(0))};

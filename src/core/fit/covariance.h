@@ -9,7 +9,7 @@
 namespace grasp_affordances
 {
 
-/// The symmetric matrix of second degree moments, of their sums by momentIndex.
+/// The symmetric matrix of the moments of second degree. @param sums  by momentIndex
 Eigen::Matrix3d secondMoments(const double* sums);
 
 /// Covariance (divided by n) of the neighborhood's points, in units of its radius. Zero for no points or no radius.
@@ -21,8 +21,8 @@ enum class Extreme
   largest
 };
 
-/// The unit eigenvector of the extreme eigenvalue of a symmetric matrix; empty where its neighbor among the eigenvalues
-/// is the same to rounding, or the matrix is not finite.
+/// The unit eigenvector of the smallest or largest eigenvalue of a symmetric matrix. Empty where the next eigenvalue is
+/// the same to rounding, and where the matrix is not finite.
 std::optional<Eigen::Vector3d> distinctEigenvector(const Eigen::Matrix3d& symmetric, Extreme extreme);
 
 }  // namespace grasp_affordances

@@ -2,6 +2,7 @@
 
 #include "core/kernels/quadric_curvatures.h"
 #include "core/parallel/random.h"
+#include "core/result/axis_frame.h"
 
 #include <Eigen/Geometry>
 
@@ -20,8 +21,8 @@ QuadricCoefficients coefficients(const Quadric& quadric)
   return {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(0, 2), b.x(), b.y(), b.z(), quadric.c};
 }
 
-/// Local coordinates of `count` evenly spaced ones of the first n points of the neighborhood; `phase`, less than n,
-/// says where they begin.
+/// Writes the local coordinates of `count` points, evenly spaced among the first n of the neighborhood. `phase`, less
+/// than n, decides which is the first.
 void drawPoints(const Quadric& quadric, const Neighborhood& neighborhood, std::size_t n, std::size_t count,
                 std::size_t phase, CurvatureScratch& scratch)
 {
@@ -55,8 +56,7 @@ PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vecto
 {
   const Eigen::Vector3d gradient = quadric.gradient(x);
   const Eigen::Vector3d normal = gradient.normalized();
-  const Eigen::Vector3d first = normal.unitOrthogonal();
-  const Eigen::Vector3d second = normal.cross(first);
+  const auto [first, second] = acrossAxis(normal);
   const Eigen::Matrix3d shape = quadric.hessian() / gradient.norm();
   const double a = first.dot(shape * first);
   const double b = first.dot(shape * second);
@@ -65,8 +65,8 @@ PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vecto
   PrincipalCurvature result;
   const double mean = (a + d) / 2, half_difference = (a - d) / 2;
   const double deviation = std::hypot(half_difference, b);
-  // The direction of the algebraically larger curvature or, for a negative mean, of the smaller, from the row of the
-  // shape operator in which nothing cancels.
+  // The direction of the algebraically larger curvature, or of the smaller one where the mean is negative. It is taken
+  // from the row of the shape operator in which nothing cancels.
   const double along_first = half_difference >= 0.0 ? deviation + half_difference : std::abs(b);
   const double along_second = half_difference >= 0.0 ? b : std::copysign(deviation - half_difference, b);
   const Eigen::Vector3d larger = along_first * first + along_second * second;
@@ -78,24 +78,23 @@ PrincipalCurvature principalCurvature(const Quadric& quadric, const Eigen::Vecto
 }
 
 std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, const Neighborhood& neighborhood,
-                                                     const Eigen::Vector3d& sensor, std::size_t count,
-                                                     std::uint64_t random_bits, CurvatureScratch& scratch,
-                                                     std::size_t seen)
+                                                     const SeenFrom& seen, const EvenDraw& draw,
+                                                     CurvatureScratch& scratch)
 {
-  const std::size_t n = std::min(seen, neighborhood.size()), drawn = std::min(count, n);
+  const std::size_t n = std::min(seen.points, neighborhood.size()), drawn = std::min(draw.count, n);
   if (drawn == 0) {
     return std::nullopt;
   }
-  drawPoints(quadric, neighborhood, n, drawn, randomIndex(random_bits, static_cast<std::uint32_t>(n)), scratch);
+  drawPoints(quadric, neighborhood, n, drawn, randomIndex(draw.random_bits, static_cast<std::uint32_t>(n)), scratch);
   const auto column = [&](Eigen::Index k) { return scratch.points.col(k).data(); };
-  const Eigen::Vector3d local_sensor = quadric.toLocal(sensor);
+  const Eigen::Vector3d local_sensor = quadric.toLocal(seen.sensor);
   const CurvatureCounts counts = quadricCurvatures(coefficients(quadric), local_sensor.data(), drawn,
                                                    {column(0), column(1), column(2), column(3)});
   if (counts.valid == 0) {
     return std::nullopt;
   }
 
-  // What is not valid is infinite, and comes last.
+  // Points that are not valid have an infinite curvature, and come last.
   double *squared = column(3), *sorted = column(4), *middle = sorted + counts.valid / 2;
   std::copy(squared, squared + drawn, sorted);
   std::nth_element(sorted, middle, sorted + drawn);

@@ -16,10 +16,10 @@ namespace grasp_affordances
 /// Principal curvature of larger magnitude at a point of a quadric.
 struct PrincipalCurvature
 {
-  double value = 0.0;  ///< in the inverse of the quadric's local unit; positive where the surface bends away from its
-                       ///< gradient's side (a sphere whose gradient points outwards is positive)
+  double value = 0.0;  ///< in the inverse of the quadric's local unit; positive where the surface bends away from the
+                       ///< side that its gradient points to, as of a sphere whose gradient points outwards
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit tangent about which the surface curves most: the cross
-                                                    ///< product of the normal with the direction of that curvature
+                                                    ///< product of the normal with the direction of this curvature
 };
 
 /// From the shape operator: the Hessian restricted to the tangent plane, over the gradient's norm (paper, section
@@ -32,7 +32,7 @@ struct NeighborhoodCurvature
 {
   double median = 0.0;                              ///< 1/m, of the magnitudes
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, curvature axis at the median point
-  bool concave = false;  ///< at most of the points the centre of curvature lies on the sensor's side
+  bool concave = false;  ///< whether at most points the centre of curvature lies on the sensor's side
 };
 
 /// Working memory of medianCurvature, one per thread.
@@ -41,14 +41,26 @@ struct CurvatureScratch
   Eigen::Array<double, Eigen::Dynamic, 5> points;  // local x, y, z, squared curvature, and that again to be sorted
 };
 
-/// Puts evenly spaced points of the neighborhood (`count` of them, all where there are fewer; the first one drawn with
-/// `random_bits`) onto the quadric by one Newton step along the gradient, discards those that leave the neighborhood,
-/// and takes the median of the larger principal curvature's magnitude. Normals are turned towards `sensor` (m, cloud's
-/// frame) before signs are judged. Empty where no point is left.
-/// @param seen  how many of the points, the first ones, that sensor saw, if not all: only these are drawn from
+/// The sensor that saw the first points of a neighborhood.
+struct SeenFrom
+{
+  Eigen::Vector3d sensor;                                        ///< m, in the cloud's frame
+  std::size_t points = std::numeric_limits<std::size_t>::max();  ///< number of them; all, where there are fewer
+};
+
+/// Evenly spaced points that are drawn from a list.
+struct EvenDraw
+{
+  std::size_t count;          ///< all, where there are fewer
+  std::uint64_t random_bits;  ///< decide which is the first
+};
+
+/// Draws from those points of the neighborhood that the sensor saw. Puts each onto the quadric by one Newton step along
+/// the gradient, discards those that leave the neighborhood, and takes the median of the larger principal curvature's
+/// magnitude (paper, section III-B). Normals are turned towards the sensor before signs are judged. Empty where no
+/// point is left.
 std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, const Neighborhood& neighborhood,
-                                                     const Eigen::Vector3d& sensor, std::size_t count,
-                                                     std::uint64_t random_bits, CurvatureScratch& scratch,
-                                                     std::size_t seen = std::numeric_limits<std::size_t>::max());
+                                                     const SeenFrom& seen, const EvenDraw& draw,
+                                                     CurvatureScratch& scratch);
 
 }  // namespace grasp_affordances

@@ -24,8 +24,8 @@ constexpr std::array<Monomial, kUnknowns> kQuadricMonomials{
 
 using Matrix9 = Eigen::Matrix<double, kGradientUnknowns, kGradientUnknowns>;
 
-// Which moments make up an entry of M and N: of M the product of two monomials, of N up to three products of their
-// derivatives.
+// The moments that make up an entry of M and N. An entry of M needs the product of two monomials, one of N up to three
+// products of their derivatives.
 struct Entry
 {
   int row, column;
@@ -64,7 +64,7 @@ constexpr std::array<Entry, kEntries> kMatrixEntries = makeEntries();
 
 struct Scatter
 {
-  Matrix9 M;  // equation 2, after elimination of the constant, whose optimum is minus the mean of the other terms
+  Matrix9 M;  // equation 2, without the constant term, whose best value is minus the mean of the other terms
   Matrix9 N;  // the sum of l_x l_x' + l_y l_y' + l_z l_z'
 };
 
@@ -95,7 +95,7 @@ void fitQuadricFully(QuadricFits& fits, std::size_t lane)
   }
   const auto [M, N] = scatterOf(means);
   fits.status[lane] = FitStatus::not_unique;
-  if (Eigen::LLT<Matrix9>(N).info() != Eigen::Success) {  // which the solver below takes for granted
+  if (Eigen::LLT<Matrix9>(N).info() != Eigen::Success) {  // the solver below needs a positive definite N
     return;
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix9> eigen(M, N);

@@ -11,7 +11,7 @@
 namespace grasp_affordances
 {
 
-/// Surface normals of a cloud's points, as coordinate arrays: unit, with arbitrary sign; NaN where there is none.
+/// Surface normals of a cloud's points, as coordinate arrays. Unit vectors of arbitrary sign; NaN where there is none.
 struct Normals
 {
   std::vector<float> x, y, z;
@@ -21,7 +21,7 @@ struct Normals
   Eigen::Vector3f normal(std::size_t index) const { return {x[index], y[index], z[index]}; }
 };
 
-/// Normal of the plane that fits the points best: eigenvector of the smallest eigenvalue of their covariance.
+/// The normal of the plane that fits the points best: the eigenvector of the smallest eigenvalue of their covariance.
 /// Empty for points that span no plane.
 std::optional<Eigen::Vector3d> planeNormal(const Neighborhood& neighborhood);
 

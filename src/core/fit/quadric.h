@@ -12,14 +12,14 @@
 namespace grasp_affordances
 {
 
-/// Sums over a neighborhood of the 35 monomials x^i y^j z^k of degree at most 4, in coordinates that are centred on the
-/// neighborhood and scaled by its radius. All that the Taubin fit needs to know of the points.
+/// Sums over a neighborhood's points of the 35 monomials x^i y^j z^k of degree at most 4. Coordinates are centred on
+/// the neighborhood and scaled by its radius. The Taubin fit needs nothing else of the points.
 class Moments
 {
 public:
   static constexpr int kCount = 35;
 
-  /// Of no points: zeros.
+  /// The moments of no points: zeros.
   Moments() = default;
 
   /// One pass over the points, in double precision. The neighborhood's radius must be above zero. Sums of a degree
@@ -36,8 +36,8 @@ private:
   std::array<double, kCount> sums_{};
 };
 
-/// A quadratic surface x'Ax + b'x + c = 0 (paper, equation 1), where x = (p - origin) / scale are the coordinates local
-/// to the neighborhood that it was fitted to: all coefficients and values are without unit.
+/// A quadratic surface x'Ax + b'x + c = 0 (paper, equation 1), in the local coordinates x = (p - origin) / scale of the
+/// neighborhood that it was fitted to. So coefficients and values have no unit.
 struct Quadric
 {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  ///< symmetric
@@ -63,20 +63,21 @@ struct TaubinFit
   double residual = 0.0;
 };
 
-/// Taubin's fit (paper, section III-A): minimises the sum of f^2 over the points with the sum of |grad f|^2 fixed: the
-/// generalized eigenproblem (M - lambda N) c = 0, smallest eigenvalue. The constant term, which has no gradient, is
-/// eliminated by its Schur complement, which leaves 9 x 9 matrices.
+/// Taubin's fit (paper, section III-A): minimises the sum of f^2 over the points, with the sum of |grad f|^2 fixed.
+/// That is the generalized eigenproblem (M - lambda N) c = 0, smallest eigenvalue. The constant term has no gradient:
+/// it is eliminated by its Schur complement, which leaves 9 x 9 matrices.
 ///
-/// Empty where the points determine no unique quadric. Points on a common plane make N singular (their plane times any
-/// other plane fits): within an RMS distance of 5e-6 of the radius where the plane is one of two coordinates, and the
-/// less the more it is inclined to all; so do points on a line, coincident points and fewer than nine.
+/// Empty where the points determine no unique quadric: where N is singular. Points on a plane make it so, since their
+/// plane times any other plane fits. A plane through two coordinate axes counts as exact where the points are within an
+/// RMS distance of 5e-6 of the radius; the more a plane is inclined to the axes, the smaller is that distance. Points
+/// on a line, coincident points and fewer than nine points make N singular, too.
 std::optional<TaubinFit> fitTaubin(const Neighborhood& neighborhood);
 
 /// The same from moments of the neighborhood with the given centre and radius.
 std::optional<TaubinFit> fitTaubin(const Moments& moments, const Eigen::Vector3d& origin, double scale);
 
-/// Taubin's fit to several neighborhoods at once, each in a lane of the processor's registers: many times faster than
-/// one by one, with the same bits as fitTaubin. One instance serves one thread at a time.
+/// Taubin's fit to several neighborhoods at once, each in a lane of the processor's registers. Many times faster than
+/// one after another, with the same bits as fitTaubin(). One instance serves one thread at a time.
 class TaubinFitter
 {
 public:
@@ -101,7 +102,7 @@ public:
   /// The fit to the i-th neighborhood; empty where its points determine no unique quadric. After fit().
   std::optional<TaubinFit> operator[](std::size_t i) const;
 
-  /// Fits so far for which the iteration did not settle, and the full eigenproblem was solved.
+  /// Number of fits so far for which the iteration did not converge and the full eigenproblem was solved.
   std::size_t solvedFully() const;
 
 private:

@@ -15,24 +15,24 @@
 namespace grasp_affordances
 {
 
-/// Surface normals of those points of a cloud that the Normals variation asks for, each computed once. Keeps its memory
-/// from cloud to cloud.
+/// Surface normals of those points of a cloud that the Normals variation asks for. Each is computed once. Keeps its
+/// memory from cloud to cloud.
 class SurfaceNormals
 {
 public:
-  /// For compute(), where a sixteenth of the normals is enough.
+  /// A stride for compute() with which a sixteenth of the normals is computed.
   static constexpr std::size_t kSparseStride = 4;
 
-  /// Starts over, with no normals, for a cloud of so many points.
+  /// Starts over, without normals, for another cloud. @param points  number of its points
   void reset(std::size_t points);
 
   /// Asks for the normals of points, by their indices. Safe to call from many threads.
   void require(const std::uint32_t* points, std::size_t count);
 
-  /// Computes what was asked for since it was last called: the planes that fit the points within `radius` (m) of each
-  /// point.
-  /// @param stride 1 for all points that were asked for; otherwise those of every stride-th row and column, where the
-  /// cloud is not organized of every stride^2-th point.
+  /// Computes the normals that were asked for since the last call: of the plane that fits the points within `radius`
+  /// (m) of each point.
+  /// @param stride  1: for all points that were asked for; otherwise only for those of every stride-th row and column,
+  /// or for every stride^2-th point where the cloud is not organized
   /// @throw Cancelled
   void compute(const Cloud& cloud, const NeighborhoodSearch& search, double radius, std::size_t stride,
                ThreadTeam& team, const Cancellation& cancellation = Cancellation());

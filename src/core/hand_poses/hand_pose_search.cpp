@@ -1,6 +1,10 @@
 #include "core/hand_poses/hand_pose_search.h"
 
 #include "core/cloud/lattice.h"
+#include "core/result/axis_frame.h"
+#include "core/result/polyline.h"
+#include "core/shell/evidence.h"
+#include "core/shell/shell.h"
 
 #include <algorithm>
 #include <bitset>
@@ -31,48 +35,15 @@ Eigen::Vector3d preferredApproach(const HandPosesConfig& config, const Eigen::Is
                                : Eigen::Vector3d(T_approach_common.linear().transpose() * direction.normalized());
 }
 
-/// Unit, at right angles to an axis and nearest to a direction; none where that is along the axis.
-std::optional<Eigen::Vector3d> across(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
-{
-  const Eigen::Vector3d part = direction - direction.dot(axis) * axis;
-  constexpr double kAlong = 1e-3;
-  return part.norm() > kAlong * direction.norm() ? std::make_optional<Eigen::Vector3d>(part.normalized())
-                                                 : std::nullopt;
-}
-
-/// The point at a distance from a polyline's beginning along it; an end beyond that.
-Eigen::Vector3d pointAt(const std::vector<Eigen::Vector3d>& polyline, double distance)
-{
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    const double segment = (polyline[i] - polyline[i - 1]).norm();
-    if (distance <= segment && segment > 0.0) {
-      return polyline[i - 1] + std::max(0.0, distance / segment) * (polyline[i] - polyline[i - 1]);
-    }
-    distance -= segment;
-  }
-  return polyline.back();
-}
-
 double score(double observed_free, double filled, double aligned, double off_middle)
 {
   const double sum = 1.0 - filled * filled + (1.0 + aligned) / 2 + 1.0 - off_middle;
   return std::clamp(std::isnan(observed_free) ? sum / 3 : (sum + observed_free) / 4, 0.0, 1.0);
 }
 
-AxisFrame inFrame(const Eigen::Isometry3d& T, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis,
-                  const Eigen::Vector3d& first, const Eigen::Vector3d& second)
-{
-  AxisFrame frame;
-  Eigen::Map<Eigen::Vector3d>(frame.origin) = T * origin;
-  Eigen::Map<Eigen::Vector3d>(frame.axis) = T.linear() * axis;
-  Eigen::Map<Eigen::Vector3d>(frame.first) = T.linear() * first;
-  Eigen::Map<Eigen::Vector3d>(frame.second) = T.linear() * second;
-  return frame;
-}
-
 }  // namespace
 
-/// See the class. In the hand's frame, metres.
+/// The corridor of a hand, see HandPoseSearch. In the hand's frame, metres.
 struct HandPoseSearch::Corridor
 {
   Corridor(const HandGeometry& hand, const HandPosesConfig& config, double handle_radius)
@@ -83,16 +54,17 @@ struct HandPoseSearch::Corridor
   {
   }
 
-  /// From the axis to its farthest point.
+  /// Distance from the axis to the farthest point of the corridor.
   double reach() const { return std::hypot(begin, half_span); }
 
-  /// Share that a sensor saw through, in any view with a range image.
+  /// The share that a sensor saw through, in any view with a range image.
   double observedFree(const PreparedViews& views, const Eigen::Isometry3d& T_common_hand) const;
 
   double radius, begin, half_span, half_width;
 };
 
-/// Lines along x, each divided evenly where it is in the corridor.
+/// The lattice is made of lines along x. Each line has the same number of points, at even distances within the
+/// corridor.
 double HandPoseSearch::Corridor::observedFree(const PreparedViews& views, const Eigen::Isometry3d& T_common_hand) const
 {
   constexpr int kAlong = 8, kAcross = 4, kWide = 3;
@@ -154,14 +126,17 @@ void HandPoseSearch::search(const PreparedViews& views, const Config& config,
   }
 }
 
-/// The middle first, then outwards, to one side and the other. Axes point the same way along the handle.
+/// The middle comes first, then places farther out, on one side and on the other. All axes point the same way along the
+/// handle.
 void HandPoseSearch::findPlaces(const Config& config, const Eigen::Vector3d& preferred, const GraspHandle& handle)
 {
   places_.clear();
   const auto add = [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, double off_middle) {
-    const Eigen::Vector3d normal = across(handle.normal, axis).value_or(axis.unitOrthogonal());
+    constexpr double kAlong = 1e-3;
+    const Eigen::Vector3d normal = normalAcross(axis, handle.normal, kAlong * handle.normal.norm());
     const bool any = preferred.isZero(0.0);
-    const Eigen::Vector3d first = any ? normal : across(-preferred, axis).value_or(normal);
+    const Eigen::Vector3d first =
+        any ? normal : directionAcross(axis, -preferred, kAlong * preferred.norm()).value_or(normal);
     places_.push_back({origin, axis, first, axis.cross(first), any ? Eigen::Vector3d(-normal) : preferred, off_middle});
   };
   add(handle.centroid, handle.axis, 0.0);
@@ -209,7 +184,7 @@ void HandPoseSearch::searchAt(const Place& place, const PreparedViews& views, co
   candidates_.resize(accepted);
 }
 
-/// Those in which a hand may approach through seen space, whatever is in its way.
+/// Adds the directions in which the corridor was seen through well enough. Points in the corridor are judged later.
 void HandPoseSearch::findDirections(const Place& place, const PreparedViews& views, const HandPosesConfig& wanted,
                                     const Corridor& corridor)
 {
@@ -228,7 +203,7 @@ void HandPoseSearch::findDirections(const Place& place, const PreparedViews& vie
       continue;
     }
     GraspPose& hand = candidate.hand;
-    hand.pose.linear() << approach, place.axis.cross(approach), place.axis;
+    hand.pose.linear() = rotationAlong(place.axis, approach);
     hand.pose.translation() = place.origin;
     hand.width = 2 * corridor.radius;
     if (sees) {
@@ -249,7 +224,8 @@ void HandPoseSearch::gatherAround(const Place& place, const PreparedViews& views
   for (std::size_t view = 0; view < views.size(); ++view) {
     const PreparedCloud& cloud = views[view];
     const Eigen::Isometry3d T_view_common = views.T_common_view(view).inverse();
-    const AxisFrame frame = inFrame(T_view_common, place.origin, place.axis, place.first, place.second);
+    const AxisFrame frame =
+        transformed(axisFrame(place.origin, place.axis, {place.first, place.second}), T_view_common);
     SurroundingPoints& around = surroundings_[view];
     around.first.clear();
     around.second.clear();
@@ -265,12 +241,11 @@ void HandPoseSearch::gatherAround(const Place& place, const PreparedViews& views
     const double points_to_block =
         pointThresholds(config.shell, views.spacing(view, T_view_common * place.origin)).gap_points_to_block *
         config.hand.palm_width / config.shell.clearance_length;
-    constexpr double kFewest = 2.0;  // a single point is never evidence
-    around.load_per_point = 1.0 / std::max(kFewest, points_to_block);
+    around.load_per_point = 1.0 / evidenceThreshold(points_to_block);
   }
 }
 
-/// Points in a corridor, over the number that blocks it.
+/// The number of points in a corridor, over the number that blocks it.
 double HandPoseSearch::load(const Candidate& candidate, const Corridor& corridor) const
 {
   double load = 0.0;

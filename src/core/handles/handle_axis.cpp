@@ -11,23 +11,24 @@ namespace grasp_affordances
 namespace
 {
 
-/// The share of them that may lie outside.
+/// The share of the shells that may be away from a straight axis, or end before it does.
 constexpr double kStray = 0.1;
 
-/// The value that all but a few stray ones reach; sorts them.
+/// The value that all but a share kStray of the values reach. Sorts the values.
 double reachedByMost(std::vector<double>& values)
 {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(kStray * static_cast<double>(values.size()))];
 }
 
-/// Turns a direction into the half-space of another.
+/// A direction or its opposite, whichever is in the half-space of the reference.
 Eigen::Vector3d turnedTowards(const Eigen::Vector3d& reference, const Eigen::Vector3d& direction)
 {
   return direction.dot(reference) < 0.0 ? Eigen::Vector3d(-direction) : direction;
 }
 
-/// Most common direction of lines, and the mean square of their cosines with it.
+/// The direction that the shells' axes have in common, without regard to their signs.
+/// @param concentration  out: the mean square of the cosines between this direction and the axes
 Eigen::Vector3d commonDirection(const std::vector<const Shell*>& shells, double& concentration)
 {
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
@@ -61,7 +62,8 @@ void AxisTracer::trace(const std::vector<const Shell*>& shells, SharedAxis& axis
   followPath(axis);
 }
 
-/// Whether the axis is a line; it is then set.
+/// Sets the axis to a line where the shells have one.
+/// @return whether they have
 bool AxisTracer::traceLine(const std::vector<const Shell*>& shells, SharedAxis& axis)
 {
   double concentration = 0.0;
@@ -120,7 +122,7 @@ void AxisTracer::makeNodes(const std::vector<const Shell*>& shells)
   }
 }
 
-/// Prim's algorithm.
+/// Joins the nodes to a tree of least total length, by Prim's algorithm.
 void AxisTracer::joinNodes()
 {
   const std::size_t count = nodes_.size();
@@ -151,7 +153,7 @@ void AxisTracer::joinNodes()
   }
 }
 
-/// In the tree; sets what comes before each node on the way.
+/// The node that is farthest from another one along the tree. Sets the node before each node on the way (before_).
 std::size_t AxisTracer::farthestFrom(std::size_t start)
 {
   distances_.assign(nodes_.size(), 0.0);
@@ -182,7 +184,7 @@ void AxisTracer::followPath(SharedAxis& axis)
   while (path_.back() != first) {
     path_.push_back(before_[path_.back()]);
   }
-  // What lies beyond the outermost middles is half a shell's length.
+  // Beyond the middle of the outermost shells the axis goes on by half their mean length.
   const auto prolonged = [&](std::size_t end, const Eigen::Vector3d& outwards) {
     const Node& node = nodes_[end];
     return Eigen::Vector3d(node.place() + node.half_lengths / node.shells * turnedTowards(outwards, node.direction()));
@@ -192,7 +194,7 @@ void AxisTracer::followPath(SharedAxis& axis)
   axis.polyline.push_back(
       prolonged(path_.front(), count > 1 ? Eigen::Vector3d(place(0) - place(1)) : nodes_[path_.front()].direction()));
   for (std::size_t i = 0; i < count; ++i) {
-    // Nodes beside the path make it zigzag.
+    // A mean with the neighbors, since the places of nodes scatter across the axis.
     const bool inner = i > 0 && i + 1 < count;
     axis.polyline.push_back(inner ? Eigen::Vector3d(place(i) / 2 + (place(i - 1) + place(i + 1)) / 4) : place(i));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "grasp_affordances/handle.h"
 #include "grasp_affordances/localization.h"
 
 #include <Eigen/Core>
@@ -10,18 +11,20 @@
 namespace grasp_affordances
 {
 
-/// The axis that some shells share, straight or bent.
+/// The common axis of some shells, straight or bent.
 struct SharedAxis
 {
-  std::vector<Eigen::Vector3d> polyline;  ///< m, from end to end: two points where it is straight
-  bool round = false;                     ///< the shells' axes have no direction in common, as about an apple
+  Polyline polyline;   ///< from end to end; two points where it is straight
+  bool round = false;  ///< the shells' axes have no common direction, as about an apple
 
   bool straight() const { return polyline.size() == 2; }
 };
 
-/// Follows the axis of shells from end to end: shells that nearly coincide are one node, the nodes are joined to a tree
-/// of least total length, and its longest path is the axis, also of a ring. It is straight where nearly all shells are
-/// near the line through their middles. Keeps its memory.
+/// Traces the axis of shells from end to end. The axis is straight where nearly all shells are near the line through
+/// their middles. Otherwise shells that nearly coincide become one node, the nodes are joined to a tree of least total
+/// length, and the longest path in the tree is the axis. The axis of a ring is thus open at some place.
+///
+/// Keeps its memory.
 class AxisTracer
 {
 public:
@@ -29,12 +32,12 @@ public:
   void trace(const std::vector<const Shell*>& shells, SharedAxis& axis);
 
 private:
-  /// Shells that are so near to one another that they are one point of the axis. Sums over them.
+  /// Shells so near to one another that they are one point of the axis: sums over these shells.
   struct Node
   {
     double shells = 0.0;
     Eigen::Vector3d places = Eigen::Vector3d::Zero();
-    Eigen::Vector3d directions = Eigen::Vector3d::Zero();  // with those of opposite sign turned
+    Eigen::Vector3d directions = Eigen::Vector3d::Zero();  // each turned into the half-space of the others
     double half_lengths = 0.0;
 
     Eigen::Vector3d place() const { return places / shells; }
@@ -49,7 +52,7 @@ private:
   void followPath(SharedAxis& axis);
 
   std::vector<Node> nodes_;
-  std::vector<std::size_t> parents_;                  // of the tree: nodes that were joined before
+  std::vector<std::size_t> parents_;                  // in the tree: the node that each was joined to
   std::vector<std::vector<std::size_t>> neighbours_;  // in the tree
   std::vector<double> distances_;
   std::vector<std::size_t> before_, path_, open_;

@@ -1,5 +1,9 @@
 #include "core/handles/handle_finder.h"
 
+#include "core/cloud/depth_noise.h"
+#include "core/result/axis_frame.h"
+#include "core/result/polyline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,9 +16,9 @@ namespace
 {
 
 constexpr double kMargin = 0.002;         // m beyond the inner radius, for noise of the surface
-constexpr std::size_t kMostPoints = 300;  // that a bar is fitted to
+constexpr std::size_t kMostPoints = 300;  // of a bar's fit
 
-/// An order that does not depend on that of the samples.
+/// Orders shells by their geometry, so that the order of the samples does not matter.
 bool standsBefore(const Shell* a, const Shell* b)
 {
   const auto key = [](const Shell& s) {
@@ -24,48 +28,17 @@ bool standsBefore(const Shell* a, const Shell* b)
   return key(*a) < key(*b);
 }
 
-/// m, one standard deviation of the depth of an Xtion at a point's distance from the nearest sensor.
-double depthNoise(const PreparedViews& views, const Eigen::Vector3d& point)
+/// Standard deviation (m) of the depth at a point, as the nearest sensor measures it.
+double depthNoiseAt(const PreparedViews& views, const Eigen::Vector3d& point)
 {
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t view = 0; view < views.size(); ++view) {
     depth = std::min(depth, (views.T_common_view(view) * views[view].sensor - point).norm());
   }
-  return 0.0008 + 0.0016 * depth * depth;
+  return depthNoise(depth);
 }
 
-/// Place and direction in the middle of a polyline's length.
-void middleOf(const std::vector<Eigen::Vector3d>& polyline, Eigen::Vector3d& place, Eigen::Vector3d& direction)
-{
-  double rest = lengthOf(polyline) / 2;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    const Eigen::Vector3d step = polyline[i] - polyline[i - 1];
-    const double length = step.norm();
-    if (rest <= length || i + 1 == polyline.size()) {
-      direction = length > 0.0 ? Eigen::Vector3d(step / length) : Eigen::Vector3d::UnitZ();
-      place = polyline[i - 1] + rest * direction;
-      return;
-    }
-    rest -= length;
-  }
-}
-
-/// Of a point from the stretches of a polyline; infinite beyond the ends.
-double distanceFrom(const std::vector<Eigen::Vector3d>& polyline, const Eigen::Vector3d& point)
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    const Eigen::Vector3d step = polyline[i] - polyline[i - 1], offset = point - polyline[i - 1];
-    const double along = offset.dot(step) / step.squaredNorm();
-    const bool first = i == 1, last = i + 1 == polyline.size();
-    if ((along >= 0.0 || !first) && (along <= 1.0 || !last)) {
-      least = std::min(least, (offset - std::clamp(along, 0.0, 1.0) * step).norm());
-    }
-  }
-  return least;
-}
-
-/// Reorders the values, of which there is at least one.
+/// Of at least one value. Reorders the values.
 double median(std::vector<double>& values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -75,16 +48,15 @@ double median(std::vector<double>& values)
 
 }  // namespace
 
-void HandleFinder::find(const PreparedViews& views, const Config& config, const PreparedViews::SamplePoint* samples,
-                        std::size_t sample_count, const std::vector<Shell>& shells, std::vector<GraspHandle>& handles,
-                        const Cancellation& cancellation)
+void HandleFinder::find(const PreparedViews& views, const Config& config, const SampledShells& found,
+                        std::vector<GraspHandle>& handles, const Cancellation& cancellation)
 {
   samples_.clear();
-  for (std::size_t i = 0; i < sample_count; ++i) {
-    const auto& [view, point] = samples[i];
+  for (std::size_t i = 0; i < found.sample_count; ++i) {
+    const auto& [view, point] = found.samples[i];
     samples_.push_back(views.T_common_view(view) * views[view].cloud->point(point).cast<double>());
   }
-  groups_.update(shells, config.handles, cancellation);
+  groups_.update(found.shells, config.handles, cancellation);
   std::size_t count = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     cancellation.check();
@@ -102,7 +74,7 @@ void HandleFinder::find(const PreparedViews& views, const Config& config, const 
     handle.unseen_for = 0.0;
     members_.clear();
     for (const std::uint32_t i : group) {
-      members_.push_back(&shells[i]);
+      members_.push_back(&found.shells[i]);
     }
     std::sort(members_.begin(), members_.end(), standsBefore);
     describe(views, config, handle);
@@ -154,15 +126,14 @@ void HandleFinder::describe(const PreparedViews& views, const Config& config, Gr
   }
   handle.polyline = axis_.polyline;
   handle.length = lengthOf(handle.polyline);
-  middleOf(handle.polyline, handle.centroid, handle.axis);
-  handle.axis = withLargestComponentPositive(handle.axis);
-  const Eigen::Vector3d across = normal - normal.dot(handle.axis) * handle.axis;
-  handle.normal =
-      across.norm() > 1e-6 * static_cast<double>(members_.size()) ? across.normalized() : handle.axis.unitOrthogonal();
+  const PolylineMiddle middle = middleOf(handle.polyline);
+  handle.centroid = middle.point;
+  handle.axis = withLargestComponentPositive(middle.direction);
+  handle.normal = normalAcross(handle.axis, normal, 1e-6 * static_cast<double>(members_.size()));
   handle.inner_radius = std::min(std::max(handle.inner_radius, handle.radius), config.hand.capture_radius);
 }
 
-/// The points that any view measured within a sphere, in the common frame.
+/// Gathers the points that any view measured within a sphere, in the common frame (points_).
 void HandleFinder::gatherPoints(const PreparedViews& views, const Eigen::Vector3d& center, double radius)
 {
   points_.clear();
@@ -176,7 +147,8 @@ void HandleFinder::gatherPoints(const PreparedViews& views, const Eigen::Vector3
   }
 }
 
-/// Of the points that were gathered those about a bar's axis; of many, some that are evenly spread among them.
+/// Selects those of the gathered points that are near a bar's axis (near_). Of more than kMostPoints it takes
+/// kMostPoints at even intervals.
 void HandleFinder::keepAlong(const FittedBar& bar, double half_length, double radius)
 {
   near_.clear();
@@ -209,7 +181,7 @@ void HandleFinder::fitLine(const PreparedViews& views, GraspHandle& handle)
   BarPrior prior;
   prior.tilt = axis_.round ? 1e-3 : 0.15;
   prior.taper = axis_.round ? 1e-3 : 0.1;
-  const auto fitted = fitBar(near_, bar, prior, depthNoise(views, bar.origin));
+  const auto fitted = fitBar(near_, bar, prior, depthNoiseAt(views, bar.origin));
   if (!fitted || fitted->radius > handle.inner_radius + kMargin) {
     return;
   }
@@ -218,8 +190,9 @@ void HandleFinder::fitLine(const PreparedViews& views, GraspHandle& handle)
   axis_.polyline.back() = fitted->origin + half_length * fitted->axis;
 }
 
-/// A short bar about each point of a bent axis. Their median radius is the handle's: that of a long bar would be too
-/// large, since it bends away. With that radius the points move to the middle of the surface around them.
+/// Fits a short bar about each point of a bent axis. The median of their radii is the handle's radius. The radius of a
+/// long bar would be too large, because the surface bends away from it. Then bars of that radius are fitted, and their
+/// origins are the points of the axis.
 void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
 {
   constexpr double kHalfLength = 0.01;  // m
@@ -231,11 +204,11 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
   const auto fitPiece = [&](std::size_t i) {
     FittedBar bar;
     bar.origin = traced_[i];
-    bar.axis = (traced_[std::min(i + 1, traced_.size() - 1)] - traced_[i > 0 ? i - 1 : 0]).normalized();
+    bar.axis = chordAround(traced_, i).normalized();
     bar.radius = handle.radius;
     gatherPoints(views, bar.origin, std::hypot(kHalfLength, reach));
     keepAlong(bar, kHalfLength, reach);
-    const auto fitted = fitBar(near_, bar, prior, depthNoise(views, bar.origin));
+    const auto fitted = fitBar(near_, bar, prior, depthNoiseAt(views, bar.origin));
     return fitted && fitted->radius <= reach ? fitted : std::nullopt;
   };
   radii_.clear();
@@ -255,7 +228,7 @@ void HandleFinder::fitBend(const PreparedViews& views, GraspHandle& handle)
   }
 }
 
-/// Of the samples that were drawn within the handle, the share that ended as one of its shells.
+/// The share of the samples drawn within the handle that ended as one of its shells.
 double HandleFinder::agreement(const GraspHandle& handle) const
 {
   const double reach = handle.inner_radius + kMargin;
@@ -263,7 +236,7 @@ double HandleFinder::agreement(const GraspHandle& handle) const
   std::size_t within = 0;
   for (const Eigen::Vector3d& sample : samples_) {
     if ((sample - handle.centroid).squaredNorm() <= farthest * farthest &&
-        distanceFrom(handle.polyline, sample) <= reach) {
+        distanceBeside(handle.polyline, sample) <= reach) {
       ++within;
     }
   }

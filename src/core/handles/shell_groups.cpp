@@ -11,7 +11,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Where two stretches of lines come closest, as places along them from their middles.
+/// Where the axes of two shells come closest within their lengths: places along the axes, from the middles (m).
 struct Approach
 {
   double on_a, on_b;
@@ -33,7 +33,7 @@ Approach closestApproach(const Shell& a, double half_a, const Shell& b, double h
   return closest;
 }
 
-/// The outer parts of a shell's length, at which a bent handle may go on in another direction.
+/// Whether a place is in the outer parts of a shell's length. There a bent handle may go on in another direction.
 bool isNearEnd(double place, const Shell& shell)
 {
   constexpr double kOuterShare = 0.35;
@@ -98,7 +98,7 @@ void ShellGroups::update(const std::vector<Shell>& shells, const HandlesConfig& 
       if (dx * dx + dy * dy + dz * dz > reach * reach) {
         continue;
       }
-      // The smaller index is the root: it does not matter in which order groups were joined.
+      // The smaller index is the root, so that the order in which groups are joined does not matter.
       const std::uint32_t a = rootOf(i), b = rootOf(j);
       if (a != b && shareAxis(shells[i], shells[j], config)) {
         parents_[std::max(a, b)] = std::min(a, b);
@@ -124,7 +124,7 @@ void ShellGroups::update(const std::vector<Shell>& shells, const HandlesConfig& 
   for (std::uint32_t i = count; i-- > 0;) {
     members_[--begins_[groups_[rootOf(i)] + 1]] = i;
   }
-  // Each begin but the first has become that of the group before it.
+  // Each begin but the first now holds the begin of the group before it.
   begins_.erase(begins_.begin());
   begins_.push_back(count);
 }

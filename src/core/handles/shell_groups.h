@@ -12,18 +12,20 @@
 namespace grasp_affordances
 {
 
-/// Whether two shells are about one stretch of one axis, or about stretches of a bent one that follow each other: their
-/// axes come as close as `max_distance` at an angle of at most `max_angle`, or at any angle near an end of each, which
-/// is a corner; and their inner radii differ by little. Where a bar has a step, shells about the slimmer part end
-/// before it: there, and only there, a gap of `max_gap` is allowed, since one between equal radii means that something
-/// blocks the bar.
-///
-/// Or whether they are about one round thing, an apple, which has no axis of its own: then their middles nearly
-/// coincide and neither is much longer than it is wide.
+/// Whether two shells share an axis: they are about the same part of one axis, or about parts of a bent axis that
+/// follow each other. They do in any of three cases, all of which require inner radii that differ by
+/// `max_radius_difference` or less:
+/// - The axes come as close as `max_distance`, at an angle of at most `max_angle`. Near an end of both, any angle will
+///   do: the axis has a corner there.
+/// - The radius of a bar has a step. Shells about the slimmer part end before the step, so that a gap of `max_gap` is
+///   allowed between ends of shells with different radii. Between equal radii a gap means that something blocks the
+///   bar.
+/// - Both are about one round thing, such as an apple, which has no axis of its own: their middles nearly coincide, and
+///   neither is much longer than it is wide.
 bool shareAxis(const Shell& a, const Shell& b, const HandlesConfig& config);
 
-/// Shells that hang together by shareAxis(), directly or through others. The groups do not depend on the order of the
-/// shells. Keeps its memory.
+/// Groups of shells that share an axis (see shareAxis), directly or through other shells. The order of the shells does
+/// not matter. Keeps its memory.
 class ShellGroups
 {
 public:
@@ -42,7 +44,7 @@ public:
     const std::uint32_t* end_;
   };
 
-  /// Groups the shells; the group of the first shell comes first.
+  /// Groups the shells. The groups are in the order of their first shells.
   /// @throw Cancelled
   void update(const std::vector<Shell>& shells, const HandlesConfig& config,
               const Cancellation& cancellation = Cancellation());
@@ -56,11 +58,11 @@ public:
 private:
   std::uint32_t rootOf(std::uint32_t shell);
 
-  std::vector<std::uint32_t> parents_;  // of a forest whose trees are the groups
+  std::vector<std::uint32_t> parents_;  // in a forest: each tree is a group
   std::vector<float> x_, y_, z_;        // m, the shells' middles
   std::vector<std::uint32_t> members_;
   std::vector<std::uint32_t> begins_{0};
-  std::vector<std::uint32_t> groups_;  // of each root
+  std::vector<std::uint32_t> groups_;  // number of each root's group
 };
 
 }  // namespace grasp_affordances

@@ -12,8 +12,8 @@ struct PixelSpan
   std::size_t begin, end;
 };
 
-/// A piece of a cylinder, for a first choice of points in single precision: what rounding might misjudge belongs in its
-/// bounds. Metres.
+/// A piece of a cylinder, for a first choice of points in single precision. It must be so much too large that rounding
+/// leaves out no point. Metres.
 struct CylinderBounds
 {
   float origin[3], axis[3];  ///< unit axis
@@ -22,11 +22,11 @@ struct CylinderBounds
   float nearest, farthest;  ///< z of its points
 };
 
-/// Numbers that the first two kernels may write beyond the last one that counts.
+/// How many numbers the first two kernels may write beyond the last valid one.
 constexpr std::size_t kChoiceSlack = 16;
 
-/// Points chosen: coordinates, and place along the axis. Arrays with room for all points chosen from and kChoiceSlack
-/// more.
+/// The chosen points: their coordinates, and their place along the axis. Arrays with room for all points that are
+/// chosen from, and kChoiceSlack more.
 struct ChosenPoints
 {
   float *x, *y, *z, *along;
@@ -41,13 +41,13 @@ std::size_t chooseInCylinder(const float* const points[3], std::size_t size, con
 struct SliceRow
 {
   float begin, thickness;
-  float rounding;  ///< m, by which places along the axis may be wrong
+  float rounding;  ///< m, largest rounding error of a place along the axis
   std::size_t count;
 };
 
-/// Deals chosen points out to slices, in their order; those so near a border that rounding might misjudge them to the
-/// slices on both sides, those beyond the ends to the last slices. Where a slice has more than `room` - kChoiceSlack
-/// points, what it is dealt is unspecified.
+/// Deals chosen points out to slices, in their order. Points so near a border that rounding may put them on the wrong
+/// side are dealt to the slices on both sides, points beyond an end to the slice at that end. Where a slice gets more
+/// than `room` - kChoiceSlack points, its content is unspecified.
 /// @param dealt coordinates: three arrays with `room` numbers for each slice. @param sizes of the slices, out
 void dealToSlices(const ChosenPoints& chosen, std::size_t count, const SliceRow& slices, float* const dealt[3],
                   std::size_t room, std::size_t* sizes);
@@ -58,8 +58,8 @@ struct AxisFrame
   double origin[3], axis[3], first[3], second[3];
 };
 
-/// Points in the frame of an axis, metres along and across it. Arrays whose size is a multiple of kAxisPointGroup: what
-/// fills them up is out of any reach of the axis.
+/// Points in the frame of an axis, metres along and across it. The size of the arrays is a multiple of kAxisPointGroup:
+/// they are filled up with points that are farther from the axis than anything.
 constexpr std::size_t kAxisPointGroup = 8;
 struct AxisPoints
 {
@@ -71,9 +71,9 @@ struct AxisPointArrays
   double *along, *first, *second;
 };
 
-/// Takes into the axis' frame, in double precision, those of `count` points that lie at [begin, end) along it. `points`
-/// have room for kAxisPointGroup numbers more, `taken` too.
-/// @return the size that is taken, a multiple of kAxisPointGroup
+/// Takes those of `count` points that lie at [begin, end) along the axis into its frame, in double precision. `points`
+/// and `taken` have room for kAxisPointGroup more numbers.
+/// @return the size of `taken`, a multiple of kAxisPointGroup
 std::size_t takeSlice(const float* const points[3], std::size_t count, const AxisFrame& frame, double begin, double end,
                       const AxisPointArrays& taken);
 
@@ -82,12 +82,12 @@ struct ShellBounds
 {
   double center[2];
   double begin, end;      ///< along the axis, both included
-  double squared_filled;  ///< points up to this radius leave the shell unfilled; negative for none
+  double squared_filled;  ///< points up to this radius do not fill the shell; negative: no such points
   double squared_inner, squared_outer;
   double reach;  ///< farthest of its points from the axis
 };
 
-/// Numbers of points between begin and end, up to each of the radii.
+/// How many points between begin and end are within each of the radii.
 struct ShellCounts
 {
   std::uint32_t short_of_filled = 0, inside = 0, up_to_outer = 0;
@@ -101,7 +101,7 @@ struct ShellCounts
 };
 ShellCounts countPoints(const AxisPoints& points, const ShellBounds& shell);
 
-/// Places along the axis of the first and last point inside the inner radius; infinity and -infinity for none.
+/// Places along the axis of the first and the last point within the inner radius; infinity and -infinity for none.
 struct AlongRange
 {
   double first, last;
@@ -115,7 +115,7 @@ struct PlaneMomentParts
   alignas(64) double of[kPlaneMoments][kAxisPointGroup] = {};
 };
 
-/// Adds the points inside the inner radius.
+/// Adds the moments of the points within the inner radius.
 void addMoments(const AxisPoints& points, const ShellBounds& shell, PlaneMomentParts& sums);
 
 }  // namespace grasp_affordances

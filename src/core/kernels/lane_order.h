@@ -9,7 +9,7 @@ namespace grasp_affordances
 
 constexpr std::size_t kOrderedLanes = 8;
 
-/// For each set of up to 8 lanes, given as bits, those lanes in order, then zeros.
+/// A table: for each set of up to 8 lanes, given as bits, the lanes of the set in their order, then zeros.
 constexpr auto makeLaneOrder()
 {
   std::array<std::array<std::uint8_t, kOrderedLanes>, 1U << kOrderedLanes> order{};

@@ -23,9 +23,9 @@ using I = hn::Rebind<std::int32_t, F>;
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-// Lanes of one number, where there is no better instruction set, have no blocks of four.
+// Where the instruction set has lanes of one number only, there are no blocks of four.
 #if defined(GRASP_AFFORDANCES_HIGHWAY) && HWY_TARGET != HWY_SCALAR
-/// Splits points four at a time; reads four numbers of each, of which the last does not count. @return how many.
+/// Splits points, four at a time. Reads four numbers of each point; the last is not used. @return how many points
 HWY_ATTR HWY_INLINE std::size_t splitBlocks(const std::uint8_t* points, std::size_t step, std::size_t count, float* x,
                                             float* y, float* z)
 {
@@ -53,7 +53,7 @@ std::size_t splitBlocks(const std::uint8_t*, std::size_t, std::size_t, float*, f
 
 HWY_ATTR void splitPoints(const std::uint8_t* points, std::size_t step, std::size_t count, float* x, float* y, float* z)
 {
-  // Behind all points but the last there is another number to read.
+  // A fourth number can be read behind each point but the last.
   std::size_t i = count == 0 ? 0 : splitBlocks(points, step, count - 1, x, y, z);
   for (; i < count; ++i) {
     float point[3];

@@ -13,14 +13,17 @@ void splitPoints(const std::uint8_t* points, std::size_t step, std::size_t count
 /// Makes `count` points that do not count as measured (see Cloud) NaN in all three coordinates.
 void blankUnmeasured(float* x, float* y, float* z, std::size_t count);
 
-/// How many of `count` numbers are not NaN.
+/// Counts those of `count` numbers that are not NaN.
 std::size_t countMeasured(const float* x, std::size_t count);
 
-/// Writes, in order, which of the numbers x are not NaN. @param room how many they are; nothing is written beyond.
+/// Lists the indices, in order, of those of the numbers x that are not NaN.
+/// @param room  how many there are; nothing is written beyond
 void listMeasured(const float* x, std::size_t count, std::uint32_t* list, std::size_t room);
 
-/// Copies the vectors at `count` indices, without those that are NaN. @param from three coordinate arrays; @param to
-/// the same, with room for `count`. @return how many were copied.
+/// Copies the vectors at `count` indices, without those that are NaN.
+/// @param from  three coordinate arrays
+/// @param to  three coordinate arrays with room for `count` numbers
+/// @return how many vectors were copied
 std::size_t gatherMeasured(const float* const from[3], const std::uint32_t* index, std::size_t count,
                            float* const to[3]);
 

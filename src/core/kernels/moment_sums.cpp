@@ -16,15 +16,15 @@ namespace HWY_NAMESPACE
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Each moment is summed in this many parts, of which point i adds to that of i modulo their number.
+// Each moment is summed in so many parts; point i adds to the part number i modulo kParts.
 constexpr std::size_t kParts = 8;
 using D = hn::CappedTag<double, kParts>;
 
-// Points are summed a tile at a time, which stays in the processor's nearest memory while each moment runs over it.
+// Points are summed a tile at a time: a tile stays in the processor's nearest memory while each moment runs over it.
 constexpr std::size_t kTile = 32;
 using Tile = std::array<double, kTile>;
 
-/// Coordinates from the centre of the points of a tile.
+/// The points of a tile, in coordinates from the centre.
 struct Coordinates
 {
   alignas(64) std::array<Tile, 3> of;
@@ -36,7 +36,7 @@ struct Sums
 
 constexpr int kTerms = 10;  // moments of degree at most 2
 
-// Each moment of a higher degree is the sum of products of two terms: the table tells which.
+// Each moment of a higher degree is a sum of products of two terms. The table tells which terms.
 struct Factors
 {
   int first, second;
@@ -60,7 +60,7 @@ constexpr std::array<Factors, kMomentCount> makeFactors()
 }
 constexpr std::array<Factors, kMomentCount> kFactors = makeFactors();
 
-/// coordinate - middle of `count` points; zero, which adds nothing, beyond them.
+/// Writes coordinate - middle for `count` points, and zeros, which add nothing, beyond them.
 HWY_ATTR HWY_INLINE void subtract(const float* coordinate, std::size_t count, double middle, Tile& tile)
 {
   const D d;
@@ -76,8 +76,8 @@ HWY_ATTR HWY_INLINE void subtract(const float* coordinate, std::size_t count, do
   std::fill(tile.begin() + i, tile.end(), 0.0);
 }
 
-/// Adds a tile's moments First + I, as many at a time as sums stay in registers; the terms are made anew each time,
-/// which costs less than to store and load them.
+/// Adds the moments First + I of a tile: as many at a time as there are registers for their sums. The terms are
+/// computed anew each time, which costs less than storing and loading them.
 template <std::size_t First, std::size_t... I>
 HWY_ATTR HWY_INLINE void addMoments(const Coordinates& coordinates, Sums& sums, std::index_sequence<I...>)
 {

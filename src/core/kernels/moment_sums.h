@@ -22,9 +22,11 @@ constexpr int momentCount(int degree)
   return momentIndex(0, 0, degree) + 1;
 }
 
-/// Sums over `count` points of all monomials of degree at most `degree` (2, 3 or 4) in their coordinates from a centre,
-/// in double precision; the same for every degree. @param coordinates of the points, three arrays. @param center its
-/// three coordinates. @param moments momentCount(degree) of them, by momentIndex.
+/// Sums all monomials of degree at most `degree` (2, 3 or 4) over `count` points, in coordinates from a centre and in
+/// double precision. A moment has the same bits for every `degree`.
+/// @param coordinates  of the points, three arrays
+/// @param center  three coordinates
+/// @param moments  momentCount(degree) of them, by momentIndex; out
 void sumMoments(const float* const coordinates[3], std::size_t count, const double center[3], double* moments,
                 int degree = 4);
 

@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using F = hn::CappedTag<float, kGatherSlack>;
 using U = hn::Rebind<std::uint32_t, F>;
 
-// Floats that are not negative have the order of their bits.
+// Floats that are not negative have the same order as their bits.
 inline std::int32_t bitsOf(float value)
 {
   std::int32_t bits = 0;
@@ -35,7 +35,7 @@ inline float floatOf(std::int32_t bits)
   return value;
 }
 
-/// Squared distances from the centre; NaN, which counts as no distance, up to the end of a register.
+/// Writes the squared distances from the centre, and NaN, which is no distance, up to the end of a register.
 HWY_ATTR HWY_INLINE void squareDistances(const GatheredPoints& points, std::size_t count, const float center[3],
                                          float* squared)
 {
@@ -88,8 +88,8 @@ struct Selection
   bool tied;          // more than k numbers are not above the value
 };
 
-/// Narrows the k-th smallest number down between its neighbors: where the numbers are spread evenly, as the squared
-/// distances of a surface's points are, interpolation takes a few steps, and halving bounds their number elsewhere.
+/// Finds the k-th smallest number by narrowing an interval down. The squared distances of a surface's points are spread
+/// evenly, and interpolation takes a few steps. Elsewhere halving bounds the number of steps.
 HWY_ATTR HWY_INLINE Selection select(std::size_t k, const float* squared, std::size_t count)
 {
   std::int32_t low = -1;  // fewer than k are up to here
@@ -114,8 +114,8 @@ HWY_ATTR HWY_INLINE Selection select(std::size_t k, const float* squared, std::s
   return {floatOf(high), up_to_low, true};
 }
 
-/// Moves those of the points [begin, end) whose squared distance is not above the limit to `kept` and on, which is at
-/// most `begin`. @return where they end.
+/// Moves those of the points [begin, end) whose squared distance is not above the limit to the places from `kept` on;
+/// `kept` is at most `begin`. @return where they end
 HWY_ATTR HWY_INLINE std::size_t moveUpTo(float limit, const GatheredPoints& points, const float* squared,
                                          std::size_t begin, std::size_t end, std::size_t kept)
 {
@@ -150,7 +150,7 @@ HWY_ATTR float keepNearest(const GatheredPoints& points, std::size_t count, cons
     moveUpTo(last.value, points, squared, 0, count, 0);
     return last.value;
   }
-  std::size_t end = 0;  // of the points that go before those left out for their order
+  std::size_t end = 0;  // where the moved points end, before those that are left out for their order
   for (std::size_t wanted = k - last.below; wanted > 0; ++end) {
     wanted -= squared[end] == last.value ? 1 : 0;
   }

@@ -12,8 +12,9 @@ struct PinholeImage
   double width, height;
 };
 
-/// The row-major index of the pixel that each point (m) falls on; -1 outside the image and behind the sensor. Numbers
-/// of points are multiples of kLookupGroup. The same pixels as RangeImage::pixel.
+/// Finds the pixel that each point (m) falls on, the same as RangeImage::pixel.
+/// @param count  number of points, a multiple of kLookupGroup
+/// @param pixels  row-major indices, out; -1 outside the image and behind the sensor
 constexpr std::size_t kLookupGroup = 8;
 void lookUpPixels(const PinholeImage& image, const double* const points[3], std::size_t count, double* pixels);
 

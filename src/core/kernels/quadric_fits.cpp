@@ -28,7 +28,7 @@ struct Pair
 };
 constexpr std::array<Pair, kQuadratic> kPairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
-/// Place among the moments of the product of up to four coordinates; -1: none.
+/// The place among the moments of a product of up to four coordinates; -1 stands for no coordinate.
 constexpr int productIndex(int a, int b = -1, int c = -1, int d = -1)
 {
   int powers[3] = {};
@@ -40,8 +40,8 @@ constexpr int productIndex(int a, int b = -1, int c = -1, int d = -1)
   return momentIndex(powers[0], powers[1], powers[2]);
 }
 
-/// What the eigenproblem (M - lambda N) c = 0 is made of, after elimination of the constant. In the basis of x, y, z
-/// and of the quadratic monomials less their mean gradient N falls apart into the identity and `gradients`.
+/// The matrices of the eigenproblem (M - lambda N) c = 0, without the constant term. The basis is x, y, z and the
+/// quadratic monomials less their mean gradient: in it N consists of two blocks, the identity and `gradients`.
 struct Scatter
 {
   Matrix<kLinear, kLinear> covariance;
@@ -90,8 +90,8 @@ HWY_ATTR HWY_INLINE void scatterOf(const std::array<Real, kMomentCount>& mean, S
   }
 }
 
-// The smallest pivot is the square of twice the RMS thickness of the points, relative to the radius, where they are
-// thin along a coordinate, and less where not.
+// Where the points are thin along a coordinate, the smallest pivot is the square of twice their RMS thickness, relative
+// to the radius; where they are thin in another direction it is less.
 constexpr double kSmallestPivot = 1e-10;
 
 /// Cholesky factor of a symmetric matrix.
@@ -150,7 +150,7 @@ struct Cholesky
   }
 };
 
-/// The ordinary symmetric eigenproblem that remains when N is divided out of M by its Cholesky factor.
+/// The ordinary symmetric eigenproblem that is left when M is divided by the Cholesky factor of N.
 HWY_ATTR HWY_INLINE Matrix<kUnknowns, kUnknowns> reduced(const Scatter& scatter, const Cholesky& cholesky)
 {
   Matrix<kUnknowns, kUnknowns> K;

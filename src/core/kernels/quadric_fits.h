@@ -18,7 +18,7 @@ enum class FitStatus : std::uint8_t
 {
   unique,
   not_unique,    ///< the points determine no unique quadric
-  not_converged  ///< the iteration for the smallest eigenvalue ended without one: the full solver has to decide
+  not_converged  ///< the iteration for the smallest eigenvalue did not converge: the full solver has to decide
 };
 
 /// Several neighborhoods, to which quadrics are fitted at once.
@@ -26,10 +26,10 @@ struct QuadricFits
 {
   alignas(64) std::array<PerFit, kMomentCount> moments;  ///< in: by momentIndex, in coordinates scaled by the radius
 
-  /// Out: coefficients of xx, yy, zz, xy, yz, xz, x, y, z and 1, in the same coordinates; where unique.
+  /// Out: coefficients of xx, yy, zz, xy, yz, xz, x, y, z and 1, in the same coordinates. Valid where unique.
   alignas(64) std::array<PerFit, 10> coefficients;
-  alignas(64) PerFit eigenvalue;  ///< out: the smallest; where unique
-  std::array<FitStatus, kFitsAtOnce> status;
+  alignas(64) PerFit eigenvalue;              ///< out: the smallest one; valid where unique
+  std::array<FitStatus, kFitsAtOnce> status;  ///< out
 };
 
 /// Taubin's fit (paper, section III-A) to the first `count` neighborhoods, each in a lane of its own: the result does

@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Each sum consists of this many parts, of which column u adds to that of u modulo their number.
+// Each sum consists of so many parts; column u adds to the part whose number is u modulo their number.
 constexpr std::size_t kParts = 8;
 using D = hn::CappedTag<double, kParts>;
 using F = hn::Rebind<float, D>;
@@ -38,7 +38,7 @@ HWY_ATTR HWY_INLINE Rays rays(V x, V y, V z)
           measured, hn::IfThenElse(measured, z, hn::Set(d, 1.0))};
 }
 
-/// Those of the pixels [i, i + lanes) of the cloud that lie before `end`; NaN beyond.
+/// The pixels [i, i + lanes) of the cloud, with NaN for those from `end` on.
 HWY_ATTR HWY_INLINE V load(const float* coordinates, std::size_t i, std::size_t end)
 {
   const D d;

@@ -14,8 +14,7 @@ struct CloudRows
   std::size_t begin, end;
 };
 
-/// Sums over measured points of the slopes x/z and y/z of their rays and of their pixels (u, v): what the regression of
-/// the pixels on the slopes needs.
+/// Sums over measured points for the regression of their pixels (u, v) on the slopes x/z and y/z of their rays.
 struct RaySums
 {
   double points, u, v;

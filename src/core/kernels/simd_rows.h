@@ -1,5 +1,5 @@
-// For kernel files, after core/simd.h: runs over rows of single precision numbers. No include guard but a toggle: it is
-// read once per instruction set.
+// For kernel files, after core/kernels/simd.h: runs over rows of single precision numbers. No include guard but a
+// toggle: it is read once per instruction set.
 
 #if defined(GRASP_AFFORDANCES_SIMD_ROWS) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRASP_AFFORDANCES_SIMD_ROWS

@@ -1,4 +1,4 @@
-// Stands in for Highway where that is missing: what kernel files use of it, with lanes of one number.
+// Takes the place of Highway where that is missing: defines what kernel files use of it, with lanes of one number.
 
 #pragma once
 
@@ -31,7 +31,7 @@ using Rebind = Tag<T>;
 template <class D>
 using RebindToSigned = Tag<std::int32_t>;  // of lanes of 32 bits
 
-/// One lane. Not a bare number, so that its type tells a vector from a scalar.
+/// One lane. A type of its own, not a bare number, so that a vector differs from a scalar.
 template <typename T>
 struct Vector
 {
@@ -270,7 +270,7 @@ std::size_t StoreMaskBits(D, bool mask, std::uint8_t* bits)
   return 1;
 }
 
-// Of one lane every order is the same.
+// One lane has only one order.
 template <class D, typename T>
 Indices<typename D::Lane> IndicesFromVec(D, Vector<T>)
 {

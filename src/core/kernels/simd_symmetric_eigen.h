@@ -1,5 +1,5 @@
-// For kernel files, after core/simd_real.h: the smallest eigenpair of symmetric matrices, one in each lane. No include
-// guard but a toggle: it is read once per instruction set.
+// For kernel files, after core/kernels/simd_real.h: the smallest eigenpair of symmetric matrices, one in each lane. No
+// include guard but a toggle: it is read once per instruction set.
 
 #if defined(GRASP_AFFORDANCES_SIMD_SYMMETRIC_EIGEN) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRASP_AFFORDANCES_SIMD_SYMMETRIC_EIGEN
@@ -11,8 +11,8 @@
 #include <array>
 #include <limits>
 
-// Loops run over a fixed few: unrolled, their indices are constants, and the matrices stay close: more than twice as
-// fast.
+// The loops have a small, fixed number of steps. Unrolled, their indices are constants and the matrices stay in the
+// nearest memory, which is more than twice as fast.
 #undef UNROLLED
 #define UNROLLED _Pragma("GCC unroll 9")
 
@@ -74,7 +74,7 @@ struct Tridiagonal
   }
 
 private:
-  /// Reflects what is below the diagonal of column k onto its first entry.
+  /// Reflects the part of column k below the diagonal onto its first entry.
   HWY_ATTR HWY_INLINE void reflect(Matrix<kUnknowns, kUnknowns>& A, int k)
   {
     Vector<kUnknowns>& v = normal_[k];
@@ -140,9 +140,9 @@ HWY_ATTR HWY_INLINE Real eigenvaluesBelow(const Tridiagonal& T, Real shift)
   return count;
 }
 
-/// Laguerre's iteration for the smallest eigenvalue, from below: it never passes that, and triples the number of digits
-/// with each step (J. H. Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 7). Left of all eigenvalues all
-/// pivots are positive.
+/// Laguerre's iteration for the smallest eigenvalue, from below. It never passes the eigenvalue, and each step triples
+/// the number of correct digits (J. H. Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 7). Below all
+/// eigenvalues all pivots are positive.
 struct SmallestEigenvalue
 {
   Real value;
@@ -177,7 +177,7 @@ struct SmallestEigenvalue
       }
       const Real root = squareRoot(larger(Real(0.0), (degree - Real(1.0)) * (degree * second - first * first)));
       const Real advance = degree / (root - first);
-      // Where a pivot is not positive the last step has reached the eigenvalue to rounding.
+      // Where a pivot is not positive, the last step has reached the eigenvalue to rounding.
       const Condition open = hn::And(hn::Not(converged), Real(0.0) < smallest_pivot);
       value = choose(open, value + advance, value);
       converged = hn::Or(hn::Not(open), advance < rounding);

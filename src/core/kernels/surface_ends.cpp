@@ -23,7 +23,7 @@ HWY_ATTR HWY_INLINE Real loadLines(const double* values)
   return hn::LoadU(LineLanes(), values);
 }
 
-/// A number where a condition holds, otherwise zero.
+/// The number where a condition holds, zero elsewhere.
 HWY_ATTR HWY_INLINE Real onlyWhere(Condition condition, Real value)
 {
   return hn::IfThenElseZero(condition, value.lanes);
@@ -58,8 +58,8 @@ HWY_ATTR void sumScanLines(const float* depth, std::size_t size, std::size_t lin
   }
 }
 
-/// Whether the pixels after one (in a direction, 1 or -1) at the end of a stretch are nearer than its line or missing:
-/// a bit for each lane, of those where the stretch has enough pixels.
+/// Whether a surface ends at a pixel: whether the pixels after it (in a direction, 1 or -1) are nearer than the line of
+/// the stretch before it, or missing. A bit for each lane; not set where the stretch has too few measured pixels.
 HWY_ATTR unsigned leavesSurface(const double* inverse_depth, int pixel, int direction, Real at, Real slope,
                                 Condition enough)
 {
@@ -71,7 +71,7 @@ HWY_ATTR unsigned leavesSurface(const double* inverse_depth, int pixel, int dire
   constexpr int kAhead = 3;
   for (int k = 1; k <= kAhead && !hn::AllFalse(d, leaves); ++k) {
     const int ahead = pixel + direction * k;
-    // The farther ahead, the less certain is the line. What was not measured is not on it.
+    // Farther ahead the line is less certain. A pixel that was not measured is not on it.
     const Real farthest = onLine(ahead) + kSurfaceTolerance * (0.5 + 0.25 * k);
     leaves = hn::AndNot(hn::Le(inverseDepth(ahead).lanes, farthest.lanes), leaves);
   }

@@ -37,7 +37,7 @@ enum class Keeping
   points_and_indices
 };
 
-/// Looks at the points of a window and keeps those of a sphere.
+/// Goes through the points of a window, and keeps those within a sphere.
 template <Keeping Keep>
 struct SphereScan
 {
@@ -48,7 +48,7 @@ struct SphereScan
     const auto squared =
         squaredLength(hn::Sub(px, hn::Set(f, cx)), hn::Sub(py, hn::Set(f, cy)), hn::Sub(pz, hn::Set(f, cz)));
     const auto range = squaredLength(px, py, pz), infinity = hn::Set(f, kInfinity);
-    // False for NaN: what was not measured is in no sphere, and nowhere near.
+    // False for NaN: a point that was not measured is in no sphere, and not the closest one.
     const auto inside = hn::And(counts, hn::Le(squared, hn::Set(f, squared_radius)));
     const auto range_inside = hn::IfThenElse(inside, range, infinity);
     keepSmallest(f, range_inside, closest, rest_closest);

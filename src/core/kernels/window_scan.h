@@ -19,7 +19,7 @@ struct PixelRows
   std::size_t stride;  ///< from row to row
 };
 
-/// Numbers that kernels may write beyond the last one that counts.
+/// How many numbers kernels may write beyond the last valid one.
 constexpr std::size_t kGatherSlack = 16;
 
 /// Where points are gathered: arrays with room for all pixels of the rectangle and kGatherSlack more.
@@ -31,18 +31,19 @@ struct GatheredPoints
   std::uint32_t* index;  ///< null: indices are not asked for
 };
 
-/// What a rectangle holds of a sphere.
+/// What is known of the points of a rectangle that lie within a sphere.
 struct SphereSurvey
 {
   std::size_t points;       ///< with squaredLength(p - center) <= squared_radius
   float closest;            ///< smallest squaredLength(p) of those points; infinity for none
-  float closest_in_window;  ///< the same of all points of the rectangle
+  float closest_in_window;  ///< smallest squaredLength(p) of all points of the rectangle; infinity for none
 };
 
-/// Looks at the sphere only: closest_in_window, which may be anything then, is zero.
+/// Surveys the points within the sphere. It does not look at the other points: closest_in_window is zero, as where
+/// something may be in front.
 SphereSurvey surveySphere(const PixelRows& window, const float center[3], float squared_radius);
 
-/// Copies the points of the sphere, too, in the order of their indices.
+/// Surveys the sphere and the rectangle, and copies the points within the sphere, in the order of their indices.
 SphereSurvey gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
                           const GatheredPoints& gathered);
 
@@ -57,8 +58,8 @@ struct ViewCone
   float tangent;  ///< |center|^2 - radius^2
 };
 
-/// Number of points in the cone with squaredLength(p) < squared_range. From the last row to the first, since what is
-/// nearer most often is lower in the image; rows that follow when there are more than `enough` are left out.
+/// Counts the points in the cone with squaredLength(p) < squared_range, until there are more than `enough`. Goes from
+/// the last row to the first, since nearer things are most often lower in the image.
 std::size_t countNearer(const PixelRows& window, const ViewCone& cone, float squared_range, std::size_t enough);
 
 }  // namespace grasp_affordances

@@ -19,14 +19,15 @@ namespace grasp_affordances
 namespace
 {
 
-/// The tree computes its own distances: it is asked for slightly more, and the shared distance decides. Where spheres
-/// hold a good part of the cloud, going through all of it is faster by far and finds the same.
+/// The tree computes distances in its own way. So it is asked for a slightly larger sphere, and Neighborhood decides
+/// which of the points it finds are within. Where spheres hold a good part of the cloud, the whole cloud is gone
+/// through instead: that finds the same points and is much faster.
 class TreeSearch : public NeighborhoodSearch
 {
 public:
   explicit TreeSearch(const Cloud& cloud) : cloud_(cloud)
   {
-    // Not by new: the class has another operator new in the libraries of PCL, which are no C++17.
+    // Not by new: the libraries of PCL are not C++17, and there the class has another operator new.
     const auto points = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       if (cloud.measured(i)) {
@@ -65,8 +66,7 @@ public:
       radius = std::max(radius,
                         kInflation * std::sqrt(*std::max_element(squared_distances.begin(), squared_distances.end())));
     }
-    // The tree gives fewer than k where squares overflow, and its idea of the k-th distance is not ours to the last
-    // bit.
+    // The tree gives fewer than k where squares overflow, and its k-th distance differs from ours in the last bits.
     withinRadius(center, static_cast<float>(radius), result);
     for (; result.size() < k && radius < kLargestRadius; radius *= 2.0) {
       withinRadius(center, static_cast<float>(radius), result);
@@ -80,9 +80,9 @@ public:
 
 private:
   static constexpr double kInflation = 1.0001;
-  static constexpr double kSmallestRadius = 1e-18;  // m; the tree finds nothing within a radius of zero
-  static constexpr double kLargestRadius = 1e18;    // m; the square of a larger one overflows
-  static constexpr std::size_t kCrowd = 64;         // a point of the tree costs as much as so many in a row, or more
+  static constexpr double kSmallestRadius = 1e-18;  // m; within a radius of zero the tree finds nothing
+  static constexpr double kLargestRadius = 1e18;    // m; the square of a larger radius overflows
+  static constexpr std::size_t kCrowd = 64;  // finding a point in the tree costs as much as going through so many
 
   static pcl::PointXYZ toPcl(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/cloud/range_image.h"
+#include "core/kernels/window_scan.h"
 
 #include <Eigen/Geometry>
 
@@ -12,11 +13,8 @@
 namespace grasp_affordances
 {
 
-struct PixelRows;
-struct SphereSurvey;
-
-/// The points of a cloud within a sphere, gathered into contiguous arrays, in the order of their indices.
-/// Reuse one object per thread: its memory is kept from search to search.
+/// The points of a cloud within a sphere, in contiguous arrays, in the order of their indices. Keeps its memory from
+/// search to search: use one object per thread again and again.
 class Neighborhood
 {
 public:
@@ -30,7 +28,7 @@ public:
   const std::uint32_t* index() const { return index_.data(); }  ///< of the points in the cloud
   Eigen::Vector3f point(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
 
-  /// Starts over around a sphere.
+  /// Starts over with no points, around another sphere.
   void clear(const Eigen::Vector3f& new_center, float new_radius);
 
   /// Appends those of the cloud's points [begin, end) that lie within the sphere.
@@ -39,16 +37,16 @@ public:
   /// Appends the cloud's point at `index` if it lies within the sphere.
   void appendPoint(const Cloud& cloud, std::size_t index) { appendRange(cloud, index, index + 1); }
 
-  /// Appends those of the points in a window of an organized cloud that lie within the sphere. @param with_index
-  /// whether index() is asked for, too: if not, it is unspecified.
+  /// Appends those of the points in a window of an organized cloud that lie within the sphere.
+  /// @param with_index  whether index() is asked for; otherwise it is unspecified
   SphereSurvey appendWindow(const Cloud& cloud, const PixelWindow& window, bool with_index = true);
 
-  /// Appends the points of a neighborhood in another cloud, brought from its frame to this one's. Their indices stay
-  /// those in their own cloud.
+  /// Appends all points of a neighborhood in another cloud, brought to this one's frame. Their indices stay those in
+  /// their own cloud.
   void append(const Neighborhood& other, const Eigen::Isometry3d& T_this_other);
 
-  /// Keeps the k points nearest to the centre, of equally distant ones those with the smaller index, and shrinks the
-  /// radius to the k-th distance. Needs at least k points.
+  /// Keeps the k points nearest to the centre, and shrinks the radius to the k-th distance. Of points at the same
+  /// distance those with the smaller index are kept. Needs at least k points.
   void keepNearest(std::size_t k);
 
 private:
@@ -62,8 +60,8 @@ private:
 };
 
 /// Finds the points of a cloud around a place. Every implementation returns the same points in the same order: those
-/// for which (p - center)^2 <= radius^2 holds in single precision, and none around a center that is not finite, as of
-/// another view's point that this one's frame has no number for. Safe to use from many threads.
+/// for which (p - center)^2 <= radius^2 holds in single precision. Around a center that is not finite there are none: a
+/// point of another view can overflow in this one's frame. Safe to use from many threads.
 class NeighborhoodSearch
 {
 public:
@@ -72,16 +70,16 @@ public:
   /// All measured points within `radius` (m) of `center`.
   virtual void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const = 0;
 
-  /// The k measured points nearest to `center`, or all where there are fewer; the result's radius is the distance of
-  /// the last of them, 0 where there is none.
+  /// The k measured points nearest to `center`, or all where there are fewer. The result's radius is the distance of
+  /// the farthest of them, 0 where there is none.
   virtual void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const = 0;
 
   /// The range image that is searched; null for a cloud without one.
   virtual const RangeImage* image() const { return nullptr; }
 };
 
-/// Searches an organized cloud in the window of pixels that the sphere projects to. `points` is the number of measured
-/// points of the cloud; image and cloud must outlive the search.
+/// Searches an organized cloud in the window of pixels that the sphere projects to. The image and its cloud must
+/// outlive the search. @param points  number of measured points of the cloud
 std::unique_ptr<NeighborhoodSearch> makeWindowSearch(const RangeImage& image, std::size_t points);
 
 /// Searches any cloud in a k-d tree. The cloud must outlive the search.

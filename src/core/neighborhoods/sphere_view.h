@@ -11,19 +11,20 @@
 namespace grasp_affordances
 {
 
-/// A sphere as the sensor sees it, and what is known of its points before they are gathered.
+/// What the sensor sees of a sphere.
 struct SphereView
 {
   Eigen::Vector3f center;  ///< m
   float radius;            ///< m
-  PixelWindow window;      ///< that it projects to
+  PixelWindow window;      ///< holds the sphere's image
   SphereSurvey survey;
 };
 
-/// That of a neighborhood, whose window is not searched: its closest point is taken to be anywhere.
+/// What the sensor sees of a neighborhood's sphere. The window is not searched: the survey's closest_in_window is 0, so
+/// that occluded() looks for points in front.
 SphereView viewOf(const Neighborhood& neighborhood, const RangeImage& image);
 
-/// As occluded() for the neighborhood in the sphere.
+/// As occluded() in occlusion.h, for the neighborhood of all points in the sphere.
 bool occluded(const RangeImage& image, const SphereView& sphere, std::size_t max_points_in_front, double min_distance);
 
 }  // namespace grasp_affordances

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "grasp_affordances/localizer.h"
+#include "grasp_affordances/cancelled.h"
 
 #include <atomic>
 #include <functional>
@@ -9,16 +9,19 @@
 namespace grasp_affordances
 {
 
-/// Whether a localization is wanted to end early: see Localizer::cancelWhen(). What has been wanted once stays wanted
-/// until begin(): what a part of the work has left undone the rest must not take for done. wanted() and check() may be
-/// called from any thread.
+/// Tells whether a localization is to end early, see Localizer::cancelWhen(). Once the answer was yes it stays yes
+/// until begin(): a part of the work that ended early is not finished, and the parts after it must not use its result.
+/// wanted() and check() may be called from any thread.
 class Cancellation
 {
 public:
-  Cancellation() = default;  ///< nobody ever wants it
+  Cancellation() = default;  ///< never wanted
   explicit Cancellation(std::function<bool()> wanted) : wanted_(std::move(wanted)) {}
 
+  /// Asks another function from now on.
   void askInstead(std::function<bool()> wanted) { wanted_ = std::move(wanted); }
+
+  /// Forgets the answer of the localization before.
   void begin() { heard_ = false; }
 
   bool wanted() const
@@ -29,7 +32,8 @@ public:
     return heard_;
   }
 
-  /// @throw Cancelled where it is wanted. Not for the tasks of a ThreadTeam: those return, and their caller checks.
+  /// @throw Cancelled where it is wanted. Tasks of a ThreadTeam must not call this: they return early where it is
+  /// wanted(), and their caller checks.
   void check() const
   {
     if (wanted()) {

@@ -14,8 +14,8 @@ inline std::uint64_t splitMix64(std::uint64_t x)
   return x ^ (x >> 31U);
 }
 
-/// Counter-based random bits: the value depends on the seed and the counters alone, so that every sample draws for
-/// itself, in any order, on any thread, with the same result on any platform.
+/// Counter-based random bits: the value depends on the seed and the counters alone. So every sample draws for itself,
+/// in any order and on any thread, and gets the same on every platform.
 inline std::uint64_t randomBits(std::uint64_t seed, std::uint64_t counter, std::uint64_t stream = 0)
 {
   return splitMix64(splitMix64(splitMix64(seed) + counter) + stream);

@@ -11,8 +11,8 @@
 namespace grasp_affordances
 {
 
-/// TbbTeam's interface on threads of the standard library, which are started anew each time: for ThreadSanitizer, which
-/// understands them and not TBB, and for jobs that are long.
+/// The interface of TbbTeam, with threads of the standard library. They are started anew for each forEach(). For
+/// ThreadSanitizer, which does not understand TBB, and for long jobs.
 class StdTeam
 {
 public:
@@ -25,7 +25,7 @@ public:
   std::size_t size() const { return threads_; }
 
   /// Calls task(i, member) for every i < count, in no particular order; no two calls at a time have the same
-  /// member < size(). After a call that throws no further ones are begun. @throw what the first such call threw
+  /// member < size(). After a call has thrown, no further calls begin. @throw what that call threw
   template <typename Task>
   void forEach(std::size_t count, Task&& task)
   {

@@ -6,10 +6,11 @@
 namespace grasp_affordances
 {
 
-/// The milliseconds since it was made or last asked.
+/// Measures wall time.
 class Stopwatch
 {
 public:
+  /// Milliseconds since construction, or since the last call.
   double lap()
   {
     const Clock::time_point now = Clock::now();

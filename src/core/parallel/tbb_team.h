@@ -26,9 +26,9 @@ public:
 
   std::size_t size() const { return static_cast<std::size_t>(threads_); }
 
-  /// Calls task(i, member) for every i < count, in no particular order; no two calls at a time have the same
-  /// member < size(), so that a member can own working memory. A call should take some microseconds at least: much more
-  /// than the cost of handing it out.
+  /// Calls task(i, member) for every i < count, in no particular order. No two calls at a time have the same
+  /// member < size(), so that a member can own working memory. A call should take some microseconds at least, since
+  /// handing it out to a thread costs time, too.
   template <typename Task>
   void forEach(std::size_t count, Task&& task)
   {

@@ -6,7 +6,7 @@
 namespace grasp_affordances
 {
 
-/// A limit to the wall time that a cloud may take, counted from construction. Without a limit no clock is read. Every
+/// Limits the wall time that a cloud may take, counted from construction. Without a limit no clock is read. Every
 /// method may be called from any thread.
 class TimeBudget
 {

@@ -17,7 +17,7 @@ std::uint32_t count(const Localization& localization, Outcome outcome)
   return localization.counts[static_cast<std::size_t>(outcome)];
 }
 
-/// Where most samples ended that are no shells.
+/// Where most of the samples ended that gave no shell.
 Outcome dominating(const Localization& localization)
 {
   static_assert(static_cast<std::size_t>(Outcome::shell) + 1 == kOutcomes, "the shells come last");
@@ -32,37 +32,35 @@ std::string millimetres(double metres)
   return text.str();
 }
 
-/// Why the cloud gave no sample, as the warnings about it say, and where to look.
-std::string nothingSampled(const Localization& localization)
+/// Why no sample was drawn, and where to look.
+std::string whyNothingSampled(NothingSampled reason)
 {
-  const std::string mark = "nothing to localize: ";
-  std::string reasons;
-  for (std::string warning : localization.warnings) {
-    if (const std::size_t at = warning.find(mark); at != std::string::npos) {
-      reasons += (reasons.empty() ? "" : "; ") + warning.erase(at, mark.size());
-    }
+  const std::string description = describe(reason);
+  switch (reason) {
+    case NothingSampled::no_cloud:
+      break;
+    case NothingSampled::empty_cloud:
+    case NothingSampled::nothing_measured:
+    case NothingSampled::points_coincide:
+      return description + ": check the sensor, its distance, and what publishes its cloud";
+    case NothingSampled::outside_workspace:
+      return description +
+             ": widen the box (workspace/min_x to workspace/max_z, or the region of a call), or check its frame";
   }
-  if (reasons.empty()) {
-    return "there was no cloud to draw samples from";
-  }
-  const bool beyond_workspace = reasons.find("workspace") != std::string::npos;
-  return reasons +
-         (beyond_workspace
-              ? ": widen that box, workspace/min_x to workspace/max_z or the region of a call, or look at its frame"
-              : ": look at the sensor, its distance, and what publishes its cloud");
+  return description;
 }
 
 std::string shellsWithoutHandle(const Localization& localization, const Config& config)
 {
   std::ostringstream text;
   text << localization.shells.size() << (localization.shells.size() == 1 ? " shell was" : " shells were")
-       << " found, but not handles/min_support = " << config.handles.min_support
-       << " about one axis that score handles/min_score = " << config.handles.min_score << " or more"
-       << ": draw more sampling/samples (" << config.sampling.samples << ") or ask for less";
+       << " found, but no handle with handles/min_support = " << config.handles.min_support
+       << " shells about one axis and a score of handles/min_score = " << config.handles.min_score
+       << " or more: raise sampling/samples (" << config.sampling.samples << "), or lower one of these thresholds";
   return text.str();
 }
 
-/// What it means that a sample ended there, and what to change.
+/// What it means that samples ended there, and which parameter to change.
 std::string meaning(Outcome outcome, const Config& config)
 {
   const std::string capture_radius = millimetres(config.hand.capture_radius);
@@ -70,10 +68,10 @@ std::string meaning(Outcome outcome, const Config& config)
   switch (outcome) {
     case Outcome::too_few_points:
       text << "with fewer neighbors than neighborhood/min_points = " << config.neighborhood.min_points
-           << ": the cloud is sparse for this hand, and a larger neighborhood/radius takes in more";
+           << ": the cloud is too sparse for this hand; a larger neighborhood/radius includes more points";
       break;
     case Outcome::degenerate:
-      text << "on exactly flat, straight or coincident points: measured clouds have noise, a synthetic one needs some";
+      text << "on exactly flat, straight or coincident points: add noise to a synthetic cloud; measured ones have it";
       break;
     case Outcome::occluded:
       text << "behind something nearer: move the camera, or raise occlusion/max_points_in_front ("
@@ -84,8 +82,8 @@ std::string meaning(Outcome outcome, const Config& config)
            << ": larger objects need a larger hand/capture_radius";
       break;
     case Outcome::concave:
-      text << "on hollow surfaces, as the inside of a cup: look from where things bulge towards the sensor, or switch "
-              "estimation/reject_concave off";
+      text << "on hollow surfaces, such as the inside of a cup: move the camera to where surfaces bulge towards it, or "
+              "switch estimation/reject_concave off";
       break;
     case Outcome::no_shell:
       text << "where no radius up to the hand's capture radius of " << capture_radius << " has a clear gap of "
@@ -98,11 +96,11 @@ std::string meaning(Outcome outcome, const Config& config)
       break;
     case Outcome::unobserved_gap:
       text << "where the sensor saw through less than " << config.shell.min_observed_free
-           << " of the gap: look from another side, or lower shell/min_observed_free";
+           << " of the gap: move the camera to another side, or lower shell/min_observed_free";
       break;
     case Outcome::uncovered:
       text << "where surface shows in less than " << config.shell.min_coverage
-           << " of the silhouette, as along edges: lower shell/min_coverage for slivers and rims";
+           << " of the silhouette, as along edges: lower shell/min_coverage to find narrow strips and rims";
       break;
     case Outcome::out_of_time:
       text << "before they were examined: raise sampling/time_budget_ms (" << config.sampling.time_budget_ms
@@ -133,7 +131,7 @@ std::string explainNothing(const Localization& localization, const Config& confi
   std::string reason;
   const bool late = 2 * count(localization, Outcome::out_of_time) > localization.sampled;
   if (localization.sampled == 0) {
-    reason = nothingSampled(localization);
+    reason = whyNothingSampled(localization.nothing_sampled);
   } else if (!localization.shells.empty() && !late) {
     reason = shellsWithoutHandle(localization, config);
   } else {

@@ -2,21 +2,10 @@
 
 #include "grasp_affordances/localization.h"
 
-#include <cstddef>
-
 namespace grasp_affordances
 {
 
-double lengthOf(const Polyline& polyline)
-{
-  double length = 0.0;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    length += (polyline[i] - polyline[i - 1]).norm();
-  }
-  return length;
-}
-
-void transform(const Eigen::Isometry3d& T, GraspHandle& handle)
+GraspHandle transformed(GraspHandle handle, const Eigen::Isometry3d& T)
 {
   handle.centroid = T * handle.centroid;
   handle.axis = withLargestComponentPositive(T.linear() * handle.axis);
@@ -27,6 +16,7 @@ void transform(const Eigen::Isometry3d& T, GraspHandle& handle)
   for (GraspPose& hand : handle.hand_poses) {
     hand.pose = T * hand.pose;
   }
+  return handle;
 }
 
 Eigen::Isometry3d toolInHand(const HandPosesConfig& config)

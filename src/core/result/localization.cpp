@@ -26,4 +26,13 @@ const char* outcomeName(Outcome outcome)
   return kNames[static_cast<std::size_t>(outcome)];  // cppcheck-suppress CastIntegerToAddressAtReturn; not an integer
 }
 
+const char* describe(NothingSampled reason)
+{
+  static constexpr std::array<const char*, kNothingSampledReasons> kDescriptions{
+      "there was no cloud to draw samples from", "the cloud is empty", "all points are NaN, zero or infinite",
+      "all measured points coincide", "no measured point lies within the workspace"};
+  // cppcheck-suppress CastIntegerToAddressAtReturn; not an integer
+  return kDescriptions[static_cast<std::size_t>(reason)];
+}
+
 }  // namespace grasp_affordances

@@ -1,5 +1,6 @@
 #include "core/shell/axis_slices.h"
 
+#include "core/result/axis_frame.h"
 #include "core/shell/grow_to.h"
 
 #include <algorithm>
@@ -40,8 +41,9 @@ AxisPoints AxisSlices::get(std::size_t slice, double reach)
   return {along_.data() + taken.begin, first_.data() + taken.begin, second_.data() + taken.begin, taken.size};
 }
 
-/// A range image is searched in three parts, the middle one first, since many searches end there; beyond it no farther
-/// from the axis than a few larger shells reach. Any other cloud is searched at once.
+/// A range image is searched in three parts along the axis. The middle part comes first, because many searches end with
+/// it. In the other two parts only the points that a few larger shells reach are gathered. Any other cloud is searched
+/// as a whole.
 void AxisSlices::gatherAround(std::size_t slice, double reach)
 {
   double radius = radius_;
@@ -108,7 +110,8 @@ void AxisSlices::dealOut(std::size_t chosen, std::size_t first, std::size_t last
     return *std::max_element(sizes_.begin(), sizes_.begin() + row.count) + kChoiceSlack;
   };
   for (std::size_t needed = deal(); needed > room_; needed = deal()) {
-    room_ = (2 * (needed / kChoiceSlack) + 1) * kChoiceSlack;  // odd, or the slices' ends would share cache lines' sets
+    room_ = (2 * (needed / kChoiceSlack) + 1) *
+            kChoiceSlack;  // odd, so that the slices' ends fall into different cache sets
   }
 
   for (std::size_t i = 0; i < row.count; ++i) {

@@ -1,8 +1,7 @@
 #include "core/shell/cylinder_points.h"
 
+#include "core/result/axis_frame.h"
 #include "core/shell/grow_to.h"
-
-#include <Eigen/Core>
 
 #include <cstddef>
 
@@ -12,8 +11,7 @@ namespace grasp_affordances
 AxisPoints CylinderPoints::gather(const Cloud& cloud, const RangeImage* image, const AxisFrame& frame, double radius,
                                   double begin, double end)
 {
-  using Vector = Eigen::Map<const Eigen::Vector3d>;
-  const CylinderPiece piece{Vector(frame.origin), Vector(frame.axis), radius, begin, end};
+  const CylinderPiece piece{asVector(frame.origin), asVector(frame.axis), radius, begin, end};
   if (image != nullptr) {
     cylinderSpans(*image, piece, spans_);
   } else {

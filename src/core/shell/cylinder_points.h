@@ -15,15 +15,15 @@ namespace grasp_affordances
 class CylinderPoints
 {
 public:
-  /// The measured points at [begin, end) along an axis and up to `radius` from it (m), and some that are farther from
-  /// it, in the frame of the axis; valid until the next call.
-  /// @param image  of the cloud, searched in the window that the piece projects to; null: all of the cloud is looked at
+  /// The measured points at [begin, end) along an axis and at most `radius` from it (m), in the frame of the axis. Some
+  /// points that are farther from the axis may be among them. Valid until the next call.
+  /// @param image  of the cloud: only the pixels onto which the piece projects are read; null: all points are read
   AxisPoints gather(const Cloud& cloud, const RangeImage* image, const AxisFrame& frame, double radius, double begin,
                     double end);
 
 private:
   std::vector<PixelSpan> spans_;
-  std::vector<float> chosen_;  // four arrays
+  std::vector<float> chosen_;  // four arrays, one after the other
   std::vector<double> along_, first_, second_;
 };
 

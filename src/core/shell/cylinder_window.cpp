@@ -17,20 +17,21 @@ struct Interval
   double low, high;
 };
 
-/// Columns of a row v that are within a strip of the image: [begin + per_row v, begin + per_row v + width].
+/// A strip of the image. It covers the columns [begin + per_row v, begin + per_row v + width] of row v.
 struct Strip
 {
   double begin, per_row, width;
 };
 
-/// The quotients of numbers in an interval and positive ones in another.
+/// All quotients of a number in one interval and a positive number in another.
 Interval quotients(const Interval& numerator, const Interval& denominator)
 {
   return {numerator.low / (numerator.low < 0.0 ? denominator.low : denominator.high),
           numerator.high / (numerator.high < 0.0 ? denominator.high : denominator.low)};
 }
 
-/// The rays (x/z, y/z, 1) whose product with `normal` is at most `reach` in magnitude, and `margin` pixels more.
+/// The rays (x/z, y/z, 1) whose scalar product with `normal` is at most `reach` in magnitude, and `margin` pixels on
+/// either side of them.
 Strip strip(const PinholeIntrinsics& camera, const Eigen::Vector3d& normal, double reach, double margin)
 {
   const double per_column = normal.x() / camera.fx, per_row = normal.y() / camera.fy;
@@ -44,14 +45,14 @@ Strip strip(const PinholeIntrinsics& camera, const Eigen::Vector3d& normal, doub
   return {middle - half_width, -per_row / per_column, 2 * half_width};
 }
 
-/// Depths of the piece; nothing can be said of where it projects to unless they are positive.
+/// Depths of the piece. Where they are not positive, the piece has no bounded projection.
 Interval depths(const CylinderPiece& piece)
 {
   const double z = piece.middle().z(), half = piece.reach(Eigen::Vector3d::UnitZ());
   return {z - half, z + half};
 }
 
-/// The pixels of a row or column [begin, end) between two slopes, and `margin` more.
+/// The columns or rows [begin, end) between two slopes, and `margin` pixels on either side of them.
 std::pair<int, int> pixelRange(const Interval& slopes, double focal_length, double principal_point, double margin,
                                std::uint32_t pixels)
 {
@@ -96,7 +97,7 @@ void cylinderSpans(const RangeImage& image, const CylinderPiece& piece, std::vec
   // Planes through the sensor and the middle, along the axis and across it.
   const Eigen::Vector3d middle = piece.middle();
   const Eigen::Vector3d across = piece.axis.cross(middle);
-  constexpr double kAlongView = 1e-6;  // the sensor looks along the axis: any such planes are as good
+  constexpr double kAlongView = 1e-6;  // where the sensor looks along the axis, any such plane will do
   const Eigen::Vector3d side =
       across.norm() > kAlongView * middle.norm() ? across.normalized() : middle.unitOrthogonal();
   const Eigen::Vector3d end = middle.cross(side).normalized();
@@ -118,7 +119,7 @@ void cylinderSpans(const RangeImage& image, const CylinderPiece& piece, std::vec
 
 double roundingWithin(const CylinderPiece& piece)
 {
-  constexpr double kRounding = 1e-6;  // some 16 units in the last place
+  constexpr double kRounding = 1e-6;  // about 16 units in the last place of a float
   const double reach = std::hypot(piece.radius, std::max(std::abs(piece.begin), std::abs(piece.end)));
   return kRounding * (piece.origin.cwiseAbs().maxCoeff() + reach + reach * reach / piece.radius);
 }

@@ -12,7 +12,8 @@
 namespace grasp_affordances
 {
 
-/// A piece of a cylinder about the line through `origin` along `axis` (unit): [begin, end] along it. Metres.
+/// A piece of a cylinder about the line through `origin` along `axis` (unit), from `begin` to `end` along the line.
+/// Metres.
 struct CylinderPiece
 {
   Eigen::Vector3d origin, axis;
@@ -20,7 +21,7 @@ struct CylinderPiece
 
   Eigen::Vector3d middle() const { return origin + (begin + end) / 2 * axis; }
 
-  /// How far it reaches from its middle in a direction (unit).
+  /// Distance (m) from the middle to the piece's farthest point in a direction (unit).
   double reach(const Eigen::Vector3d& direction) const
   {
     const double along = axis.dot(direction);
@@ -28,13 +29,14 @@ struct CylinderPiece
   }
 };
 
-/// Pixels, row by row, that contain every measured point within the piece.
+/// The pixels of the image onto which the piece projects, row by row. They contain every measured point within it.
 void cylinderSpans(const RangeImage& image, const CylinderPiece& piece, std::vector<PixelSpan>& spans);
 
-/// By how much chooseInCylinder, in single precision, may be wrong about the place of a point in a piece (m).
+/// The largest error (m) that single precision makes in chooseInCylinder about the place of a point in the piece.
 double roundingWithin(const CylinderPiece& piece);
 
-/// Bounds of a piece for chooseInCylinder, so loose that rounding loses no point.
+/// Bounds of a piece for chooseInCylinder, widened so that rounding loses no point.
+/// @param rounding  m, see roundingWithin
 CylinderBounds looseBounds(const CylinderPiece& piece, double rounding);
 
 }  // namespace grasp_affordances

@@ -1,6 +1,8 @@
 #include "core/shell/directed_search.h"
 
 #include "core/fit/circle.h"
+#include "core/result/axis_frame.h"
+#include "core/shell/evidence.h"
 
 #include <Eigen/LU>
 
@@ -16,30 +18,19 @@ namespace grasp_affordances
 namespace
 {
 
-// Without a measured length there is one slice, the clearance length. Otherwise their number is odd: the sample is in
-// the middle of the middle one.
+// Without a measured length there is one slice, as long as the clearance length. Otherwise the number of slices is odd,
+// so that the sample is in the middle of the middle slice.
 Slices makeSlices(const ShellConfig& config, double spacing)
 {
   Slices slices;
   slices.thickness = config.clearance_length;
   if (config.measure_length) {
-    constexpr double kPointsPerSlice = 1.5;  // thinner slices would look empty between two rows of points
+    constexpr double kPointsPerSlice = 1.5;  // a thinner slice could fall between two rows of points and look empty
     slices.thickness = std::max(config.length_resolution, kPointsPerSlice * spacing);
     slices.count = 2 * static_cast<std::size_t>(config.max_length / 2 / slices.thickness) + 1;
   }
   slices.begin = -slices.thickness * static_cast<double>(slices.count) / 2;
   return slices;
-}
-
-AxisFrame axisFrame(const FittedCylinder& cylinder)
-{
-  const Eigen::Vector3d first = cylinder.axis.unitOrthogonal();
-  AxisFrame frame;
-  Eigen::Map<Eigen::Vector3d>(frame.origin) = cylinder.origin;
-  Eigen::Map<Eigen::Vector3d>(frame.axis) = cylinder.axis;
-  Eigen::Map<Eigen::Vector3d>(frame.first) = first;
-  Eigen::Map<Eigen::Vector3d>(frame.second) = cylinder.axis.cross(first);
-  return frame;
 }
 
 PlaneMoments planeMoments(const PlaneMomentParts& parts)
@@ -66,15 +57,15 @@ DirectedSearch::DirectedSearch(const ShellSurroundings& surroundings, const Hand
   counts_.resize(slices_.count);
 }
 
-/// Gathers points around a cylinder's axis, unless those that were gathered before serve as well.
+/// Gathers the points around a cylinder's axis, unless the points that were gathered before will do.
 void DirectedSearch::lookAlong(const FittedCylinder& cylinder)
 {
-  constexpr double kLargestShift = 0.004;  // m, across the axis, of a cylinder fitted anew
+  constexpr double kLargestShift = 0.004;  // m, across the axis, by recentering
   cylinder_ = cylinder;
   if (frame_ && (cylinder.origin - asVector(frame_->origin)).norm() <= kLargestShift) {
     return;
   }
-  frame_ = axisFrame(cylinder);
+  frame_ = axisFrame(cylinder.origin, cylinder.axis, acrossAxis(cylinder.axis));
   const double reach = hand_.capture_radius + hand_.finger_thickness + (config_.recenter ? kLargestShift : 0.0);
   views_.start(surroundings_, *frame_, slices_, reach);
 }
@@ -115,8 +106,8 @@ ShellSearchResult DirectedSearch::about(const FittedCylinder& cylinder)
   return result;
 }
 
-/// About the same direction. The radius is the surface's, up to the next whole number of steps below the capture
-/// radius: so the last shell that is tried is the largest that the hand can enclose.
+/// The direction stays. The radius is that of the surface, increased so that a whole number of steps leads from it to
+/// the capture radius. Thus the last shell that is tried is the largest that the hand can enclose.
 std::optional<FittedCylinder> DirectedSearch::refit() const
 {
   ShellBounds shell = found_bounds_;
@@ -134,13 +125,14 @@ std::optional<FittedCylinder> DirectedSearch::refit() const
   refitted.origin = asVector(frame_->origin) + circle->center.x() * asVector(frame_->first) +
                     circle->center.y() * asVector(frame_->second);
   const double room = hand_.capture_radius - circle->radius;
-  constexpr double kRounding = 1.0 + 1e-12;  // or the search, counting the steps back, might lose the last one
+  constexpr double kRounding = 1.0 + 1e-12;  // else rounding could make about() count one step less
   const double whole_steps = std::floor(room / config_.radius_step) * config_.radius_step * kRounding;
   refitted.radius = room >= 0.0 ? std::max(0.0, hand_.capture_radius - whole_steps) : circle->radius;
   return refitted;
 }
 
-/// A line through the middles of what each slice holds within the hand's reach, weighted by the points.
+/// A line through the centres of circles, one fitted to each slice's points within the capture radius. Each centre has
+/// the number of these points as its weight.
 std::optional<FittedCylinder> DirectedSearch::straightened() const
 {
   if (!frame_) {
@@ -172,7 +164,7 @@ std::optional<FittedCylinder> DirectedSearch::straightened() const
   if (!(products.determinant() > 1e-3 * spread * spread)) {
     return std::nullopt;
   }
-  const Eigen::Matrix2d line = middles * products.inverse();  // columns: at the sample, and slopes
+  const Eigen::Matrix2d line = middles * products.inverse();  // columns: place at the sample, and slope along the axis
   const Eigen::Vector3d first = asVector(frame_->first), second = asVector(frame_->second);
   FittedCylinder result;
   result.axis = (asVector(frame_->axis) + line(0, 1) * first + line(1, 1) * second).normalized();
@@ -210,7 +202,7 @@ bool DirectedSearch::clearAndOccupied(const Extent& extent) const
          extent.in_gap + extent.hidden_in_gap < lengths * thresholds_.gap_points_to_block;
 }
 
-/// Whether no sensor could see anything of a slice.
+/// Whether no sensor could see any of a slice.
 bool DirectedSearch::unseen(std::size_t slice) const
 {
   const std::vector<OtherView>* others = surroundings_.others;
@@ -220,7 +212,8 @@ bool DirectedSearch::unseen(std::size_t slice) const
           }));
 }
 
-/// In front of the axis something nearer than the hand reaches was measured, or nothing.
+/// Whether this sensor could not see it: its pixels measured nothing, or something in front of the axis by more than
+/// the capture radius.
 bool DirectedSearch::unseen(std::size_t slice, const RangeImage* image, const Eigen::Isometry3d& T_image_this) const
 {
   if (image == nullptr) {
@@ -248,18 +241,19 @@ DirectedSearch::Extent DirectedSearch::clearanceExtent(const ShellBounds& shell)
   return extent;
 }
 
-/// Whether a slice is occupied inside and clear around.
+/// Whether a slice is occupied inside and clear around. A slice of which no sensor could see anything is taken to be
+/// occupied.
 bool DirectedSearch::graspable(std::size_t slice, const ShellBounds& shell) const
 {
   const double points_to_block =
-      std::max(2.0, 2.0 * thresholds_.gap_points_to_block * slices_.thickness / config_.clearance_length);
+      evidenceThreshold(2.0 * thresholds_.gap_points_to_block * slices_.thickness / config_.clearance_length);
   const SliceCounts& counts = counts_[slice] = views_.count(slice, shell);
   const std::uint32_t inside = counts.points.inside;
   return counts.inGap() + counts.hiddenInGap() < points_to_block &&
          (inside > counts.points.short_of_filled || (inside == 0 && unseen(slice)));
 }
 
-/// The slices around the sample's that follow one another occupied inside and clear around.
+/// The row of slices around the sample that are all occupied inside and clear around.
 DirectedSearch::Extent DirectedSearch::measuredExtent(const ShellBounds& shell) const
 {
   Extent extent;
@@ -282,8 +276,9 @@ DirectedSearch::Extent DirectedSearch::measuredExtent(const ShellBounds& shell) 
   return extent;
 }
 
-/// From whole slices to the outermost points inside, each of which stands for a surface that goes on by half the
-/// distance between points, but not into slices that are not clear, and not beyond the length that is measured.
+/// Shortens an extent of whole slices to its outermost points inside the shell. Each of these stands for a surface that
+/// continues by half the distance between points. The result is within the given extent and within the largest length
+/// that is measured.
 DirectedSearch::Extent DirectedSearch::refinedExtent(const Extent& extent, ShellBounds shell) const
 {
   std::size_t first = extent.first_slice, last = extent.last_slice;

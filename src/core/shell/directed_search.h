@@ -18,25 +18,27 @@
 namespace grasp_affordances
 {
 
-/// FitShell about one direction.
+/// FitShell about axes of one direction. See ShellSearch for what it searches.
 class DirectedSearch
 {
 public:
-  /// All of these must outlive it.
+  /// All arguments must outlive the search. `views` and `counts` are working memory.
   DirectedSearch(const ShellSurroundings& surroundings, const HandGeometry& hand, const ShellConfig& config,
                  ViewSlices& views, std::vector<SliceCounts>& counts);
 
-  /// The smallest shell about a cylinder's axis, from its radius on. Its direction is the same from call to call.
+  /// The smallest shell about a cylinder's axis whose radius is not below the cylinder's.
+  /// @param cylinder  with the same direction in every call
   ShellSearchResult about(const FittedCylinder& cylinder);
 
-  /// The cylinder through the points inside the shell that was found last.
+  /// The cylinder fitted to the points inside the shell that was found last; empty where the fit fails.
   std::optional<FittedCylinder> refit() const;
 
-  /// A cylinder of another direction, through what the hand's reach about the axis holds over the clearance length.
+  /// A cylinder of another direction, fitted to the points within the capture radius of the axis and over the clearance
+  /// length; empty where they do not determine one.
   std::optional<FittedCylinder> straightened() const;
 
 private:
-  /// Slices that follow one another, and what a shell holds of them.
+  /// A row of slices, and the numbers of their points in a shell.
   struct Extent
   {
     std::size_t first_slice = 0, last_slice = 0;
@@ -68,9 +70,9 @@ private:
   const Slices slices_;
   const PointThresholds thresholds_;
   ViewSlices& views_;
-  std::vector<SliceCounts>& counts_;  // slices, in the shell that was looked at last
-  std::optional<AxisFrame> frame_;    // of the points
-  FittedCylinder cylinder_;           // that is searched about
+  std::vector<SliceCounts>& counts_;  // of each slice, in the shell that was looked at last
+  std::optional<AxisFrame> frame_;    // in which the points were gathered
+  FittedCylinder cylinder_;           // about which shells are searched
   Extent found_;
   ShellBounds found_bounds_{};
 };

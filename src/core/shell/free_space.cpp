@@ -14,7 +14,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Cosine and sine of the middles of equal parts of a turn.
+/// Cosine and sine of the angles in the middles of equal parts of a circle.
 template <std::size_t Parts>
 std::array<Eigen::Vector2d, Parts> directionsAround()
 {

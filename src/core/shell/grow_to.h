@@ -7,7 +7,7 @@
 namespace grasp_affordances
 {
 
-/// Grows memory to a size, and where it must, to twice what it was.
+/// Makes memory at least as large as a size. Where it has to grow, it grows to twice its size or more.
 template <typename Number>
 void growTo(std::size_t size, std::vector<Number>& memory)
 {

@@ -1,9 +1,9 @@
 #include "core/shell/shell.h"
 
 #include "core/shell/directed_search.h"
+#include "core/shell/evidence.h"
 #include "core/shell/view_slices.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace grasp_affordances
@@ -15,9 +15,8 @@ PointThresholds pointThresholds(const ShellConfig& config, double spacing)
                              static_cast<double>(config.min_points_inside)};
   if (config.scale_with_density && spacing > 0.0) {
     const double ratio = config.reference_spacing / spacing;
-    constexpr double kFewest = 2.0;  // a single point is never evidence
-    thresholds.gap_points_to_block = std::max(kFewest, thresholds.gap_points_to_block * ratio * ratio);
-    thresholds.min_points_inside = std::max(kFewest, thresholds.min_points_inside * ratio * ratio);
+    thresholds.gap_points_to_block = evidenceThreshold(thresholds.gap_points_to_block * ratio * ratio);
+    thresholds.min_points_inside = evidenceThreshold(thresholds.min_points_inside * ratio * ratio);
   }
   return thresholds;
 }
@@ -25,7 +24,7 @@ PointThresholds pointThresholds(const ShellConfig& config, double spacing)
 struct ShellSearch::Memory
 {
   ViewSlices views;
-  std::vector<SliceCounts> counts;  // slices, in the shell that was looked at last
+  std::vector<SliceCounts> counts;  // of each slice, in the shell that was looked at last
 };
 
 ShellSearch::ShellSearch() : memory_(std::make_unique<Memory>()) {}

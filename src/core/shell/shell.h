@@ -1,19 +1,17 @@
 #pragma once
 
-#include "core/cloud/range_image.h"
-#include "core/neighborhoods/neighborhoods.h"
+#include "core/neighborhoods/surroundings.h"
 #include "grasp_affordances/config.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace grasp_affordances
 {
 
-/// Where the shell search starts: the axis and radius of the cylinder fitted to a neighborhood.
+/// The cylinder that was fitted to a neighborhood. The shell search starts from its axis and radius.
 struct FittedCylinder
 {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m, projection of the sample onto the axis
@@ -21,16 +19,16 @@ struct FittedCylinder
   double radius = 0.0;                               ///< m
 };
 
-/// The thresholds on numbers of points, where they have been adapted to the density of points.
+/// The thresholds on numbers of points, adapted to the density of points.
 struct PointThresholds
 {
   double gap_points_to_block = 0.0;  ///< over the clearance length
   double min_points_inside = 0.0;    ///< over the clearance length
 };
 
-/// ShellConfig's thresholds for points `spacing` metres apart: as they stand, or with `scale_with_density` in
-/// proportion to the number of points that a surface shows, but at least 2. A spacing of 0 means unknown: as they
-/// stand.
+/// ShellConfig's thresholds for points `spacing` metres apart. With `scale_with_density` they are scaled by
+/// (reference_spacing / spacing)^2, in proportion to the number of points on a surface, and are at least 2. Without it,
+/// or with a spacing of 0 (unknown), they are those of the configuration.
 PointThresholds pointThresholds(const ShellConfig& config, double spacing);
 
 struct ShellSearchResult
@@ -46,48 +44,33 @@ struct ShellSearchResult
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< m, on the axis, in the middle of the length
   double inner_radius = 0.0;                           ///< m
   double length = 0.0;                                 ///< m
-  std::uint32_t points_inside = 0;
-  std::uint32_t points_in_gap = 0;
+  std::uint32_t points_inside = 0;  ///< cloud points over the length, at most inner_radius from the axis
+  std::uint32_t points_in_gap = 0;  ///< cloud points over the length, in the gap
 };
 
-/// The same scene at the same moment, as another sensor saw it.
-struct OtherView
-{
-  const NeighborhoodSearch* cloud = nullptr;
-  const NeighborhoodSearch* hidden = nullptr;                      ///< may be null, as in ShellSurroundings
-  const RangeImage* image = nullptr;                               ///< may be null
-  Eigen::Isometry3d T_other_this = Eigen::Isometry3d::Identity();  ///< to its frame, from that of the shell
-};
-
-/// What a shell is searched in.
-struct ShellSurroundings
-{
-  const NeighborhoodSearch& cloud;
-  const NeighborhoodSearch* hidden =
-      nullptr;                        ///< what is taken to be where the sensor did not see: blocks gaps as well
-  const RangeImage* image = nullptr;  ///< tells what was not seen, and how exactly depth was measured
-  double spacing = 0.0;               ///< m, between neighboring points; 0: unknown
-  const std::vector<OtherView>* others = nullptr;  ///< whose points count as well; null for none
-};
-
-/// FitShell (paper, section IV): the smallest radius, from the fitted one in steps up to the capture radius, with a gap
-/// that is clear of the cloud's points and enough points inside it.
+/// FitShell (paper, section IV). It tries radii from the fitted one up to the capture radius, in steps. The result is
+/// the smallest radius whose gap is clear of the cloud's points and which has enough points inside.
 ///
-/// Without `measure_length` the gap must be clear over the clearance length, centred on the sample, as in the paper.
-/// With it the clear and occupied extent around the sample is measured for each radius, and must have the minimum
-/// length. Occupied is where the surface reaches `min_fill` of the inner radius: the tip of a corner or of a cone,
-/// around which some shell always is clear, does so over a short extent only. Noise swells a shell, too: the surface
-/// need reach no farther than `depth_error` short of it. Where nothing of the surface could be seen, because of
-/// something in front or for lack of a measurement, the extent goes on to where it is seen again.
+/// **Length.** Without `measure_length` the gap must be clear over the clearance length, centred on the sample, as in
+/// the paper. With `measure_length` the extent along the axis that is clear around and occupied inside is measured for
+/// each radius. It must have the minimum length.
 ///
-/// With `recenter` the cylinder is fitted anew to the points inside the shell that was found, and the search repeated:
-/// the neighborhood may show too short an arc of the surface, or something else beside it, to place the axis well.
+/// A place along the axis is occupied where the surface reaches `min_fill` of the inner radius. The tip of a corner or
+/// of a cone always has some clear shell around it, but it reaches so far over a short extent only. Noise of the depth
+/// makes a shell larger than the surface. Therefore a surface that falls short of the inner radius by `depth_error` or
+/// less counts as well. Where no sensor could see the surface, because something is in front of it or nothing was
+/// measured, the extent continues to where the surface is seen again.
 ///
-/// With `straighten` and several views, where no shell is found: a line through the middles of slices about the axis is
-/// a better one, since all sides of the surface are seen, and the search is repeated about it. One view may find a
-/// shell about an axis that is off by some degrees; several also see what such a shell would touch.
+/// **Recentering.** With `recenter` a cylinder is fitted to the points inside the shell that was found, and the search
+/// is repeated about it. The neighborhood alone may show too short an arc of the surface, or another object beside it,
+/// so that the first axis is not well placed.
 ///
-/// Keeps its working memory: one instance per thread.
+/// **Straightening.** With `straighten` and several views, where no shell is found, a line is fitted to the middles of
+/// slices about the axis, and the search is repeated about this line. One view may find a shell about an axis that is
+/// wrong by some degrees. Several views see the surface from more sides: they see what such a shell would touch, and
+/// they also give a better axis.
+///
+/// An instance keeps its working memory and serves one thread at a time.
 class ShellSearch
 {
 public:

@@ -1,24 +1,11 @@
 #include "core/shell/view_slices.h"
 
+#include "core/result/axis_frame.h"
+
 #include <algorithm>
 
 namespace grasp_affordances
 {
-namespace
-{
-
-AxisFrame transformed(const AxisFrame& frame, const Eigen::Isometry3d& T)
-{
-  AxisFrame result;
-  Eigen::Map<Eigen::Vector3d>(result.origin) = T * asVector(frame.origin);
-  Eigen::Map<Eigen::Vector3d>(result.axis) = T.linear() * asVector(frame.axis);
-  Eigen::Map<Eigen::Vector3d>(result.first) = T.linear() * asVector(frame.first);
-  Eigen::Map<Eigen::Vector3d>(result.second) = T.linear() * asVector(frame.second);
-  return result;
-}
-
-}  // namespace
-
 void ViewSlices::start(const ShellSurroundings& surroundings, const AxisFrame& frame, const Slices& slices,
                        double radius)
 {

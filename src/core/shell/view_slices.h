@@ -11,7 +11,7 @@
 namespace grasp_affordances
 {
 
-/// What a shell holds of a slice.
+/// The numbers of a slice's points in a shell: those that were measured, and those of hidden surfaces.
 struct SliceCounts
 {
   ShellCounts points, hidden;
@@ -25,12 +25,14 @@ struct SliceCounts
   std::uint32_t hiddenInGap() const { return hidden.up_to_outer - hidden.inside; }
 };
 
-/// The points about an axis in all views, slice by slice: places along the axis and across it are the same in the
-/// frames of all views. Keeps its memory from axis to axis.
+/// The points about an axis in all views, slice by slice. Their coordinates along the axis and across it are the same,
+/// whichever view measured them. Keeps its memory from axis to axis.
 class ViewSlices
 {
 public:
-  /// Starts over about an axis in the frame of the surroundings, which must stay until the next start.
+  /// Starts with another axis.
+  /// @param surroundings  must exist until the next start
+  /// @param frame  of the axis, given in the frame of the surroundings
   void start(const ShellSurroundings& surroundings, const AxisFrame& frame, const Slices& slices, double radius);
 
   /// Calls visit(points) with the measured points of each view; see AxisSlices::get.
@@ -50,7 +52,7 @@ private:
     AxisSlices points, hidden;
   };
 
-  std::vector<View> views_;  // the surroundings' own first; more than there are now, perhaps
+  std::vector<View> views_;  // the first count_ are in use, and the first of all is the surroundings' own
   std::size_t count_ = 0;
 };
 

@@ -9,7 +9,7 @@ namespace
 
 constexpr Eigen::Index kNone = -1;
 
-/// Shortest augmenting paths over the rows' own columns and one more for each row, which stands for being alone.
+/// Shortest augmenting paths. Each row has one column more, of its own, which stands for a row without a column.
 class Assignment
 {
 public:
@@ -46,7 +46,8 @@ private:
     return column - costs_.cols() == row ? alone_ : std::numeric_limits<double>::infinity();
   }
 
-  /// Finds the cheapest way to give one more row a column, others changing theirs. There is one: the row's own.
+  /// Gives one more row a column in the cheapest way. Other rows may change their columns. A way always exists, because
+  /// the row has a column of its own.
   void add(Eigen::Index row)
   {
     std::vector<double> way(columns_, std::numeric_limits<double>::infinity());

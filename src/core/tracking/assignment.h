@@ -8,12 +8,12 @@
 namespace grasp_affordances
 {
 
-/// Assigns columns to rows, each to one at most, such that the sum of the costs is the least: those of the pairs, and
-/// `alone` for every row without a column. (Hungarian method by shortest augmenting paths; cubic in the size.)
-/// Deterministic, also where several assignments cost the same.
-/// @param costs  at least 0; of pairs that must not be, infinity
+/// Assigns columns to rows, at most one to each, so that the sum of the costs is the least. The sum has the cost of
+/// each pair, and `alone` for each row without a column. The method is the Hungarian one with shortest augmenting
+/// paths; its time is cubic in the size. Deterministic, even where several assignments have the same cost.
+/// @param costs  of each row with each column, at least 0; infinity for pairs that are not allowed
 /// @param alone  finite, at least 0
-/// @return of each row, its column
+/// @return the column of each row; empty for a row without one
 std::vector<std::optional<Eigen::Index>> cheapestAssignment(const Eigen::MatrixXd& costs, double alone);
 
 }  // namespace grasp_affordances

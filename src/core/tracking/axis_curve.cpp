@@ -12,12 +12,12 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kShortestPiece = 1e-6;  // m; what is nearer together is one point
+constexpr double kShortestPiece = 1e-6;  // m; points that are nearer to each other are one
 
-/// The points of a handle's polyline without repetitions.
-std::vector<Eigen::Vector3d> distinctPoints(const GraspHandle& handle)
+/// The points of a handle's polyline, where no point is the same as the one before.
+Polyline distinctPoints(const GraspHandle& handle)
 {
-  std::vector<Eigen::Vector3d> points;
+  Polyline points;
   for (const Eigen::Vector3d& point : handle.polyline) {
     if (points.empty() || (point - points.back()).norm() > kShortestPiece) {
       points.push_back(point);
@@ -37,7 +37,7 @@ AxisCurve::AxisCurve(const GraspHandle& handle) : points_(distinctPoints(handle)
   measure();
 }
 
-AxisCurve::AxisCurve(std::vector<Eigen::Vector3d> points) : points_(std::move(points))
+AxisCurve::AxisCurve(Polyline points) : points_(std::move(points))
 {
   measure();
 }
@@ -85,16 +85,16 @@ AxisCurve::Foot AxisCurve::foot(const Eigen::Vector3d& point) const
   return foot;
 }
 
-std::vector<Eigen::Vector3d> AxisCurve::spread(double from, double to, std::size_t count) const
+Polyline AxisCurve::spread(double from, double to, std::size_t count) const
 {
-  std::vector<Eigen::Vector3d> result;
+  Polyline result;
   for (std::size_t i = 0; i < count; ++i) {
     result.push_back(at(from + (to - from) * static_cast<double>(i) / static_cast<double>(count - 1)));
   }
   return result;
 }
 
-AxisCurve straightCurve(const std::vector<Eigen::Vector3d>& points)
+AxisCurve straightCurve(const Polyline& points)
 {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : points) {

@@ -10,25 +10,28 @@
 namespace grasp_affordances
 {
 
-/// A handle's axis, straight or bent, measured by the way s along it: metres from its first end. Beyond its ends it
-/// goes on straight. Which end is the first is arbitrary.
+/// A handle's axis, straight or bent. A place on it is given by s, the distance (m) along the axis from its first end.
+/// Which end is the first is arbitrary.
+///
+/// Beyond its ends the curve goes on straight, so that an axis that is found longer has places there, too. This is why
+/// it does not use core/result/polyline.h, where the places end with the polyline.
 class AxisCurve
 {
 public:
-  /// What is nearest to a point.
+  /// The place of the curve that is nearest to a point.
   struct Foot
   {
-    double s = 0.0;         ///< m, below 0 or above length() where the point lies beyond an end
-    double distance = 0.0;  ///< m, from the curve between its ends
+    double s = 0.0;         ///< m, below 0 or above length() for a point beyond an end
+    double distance = 0.0;  ///< m, from the point to the curve between its ends
   };
 
-  /// A straight one about the centroid where the handle has no polyline with a length.
+  /// The curve of a handle's polyline. Where that has no length: a straight curve through the centroid along the axis.
   explicit AxisCurve(const GraspHandle& handle);
 
   /// @param points  from end to end, at least two, no two successive ones equal
-  explicit AxisCurve(std::vector<Eigen::Vector3d> points);
+  explicit AxisCurve(Polyline points);
 
-  const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  const Polyline& points() const { return points_; }
   double length() const { return ways_.back(); }
   bool straight() const { return points_.size() == 2; }
 
@@ -36,18 +39,19 @@ public:
   Eigen::Vector3d direction(double s) const;  ///< unit, towards larger s
   Foot foot(const Eigen::Vector3d& point) const;
 
-  /// So many points, at least two, evenly from one place to the other.
-  std::vector<Eigen::Vector3d> spread(double from, double to, std::size_t count) const;
+  /// `count` points, at least two, at even distances from one place to another.
+  Polyline spread(double from, double to, std::size_t count) const;
 
 private:
   std::size_t pieceAt(double s) const;
   void measure();
 
-  std::vector<Eigen::Vector3d> points_;
-  std::vector<double> ways_;  ///< to each point
+  Polyline points_;
+  std::vector<double> ways_;  // m, along the curve from the first point to each point
 };
 
-/// The straight one that fits points, at least two, with the least squares: from the first of them to the last.
-AxisCurve straightCurve(const std::vector<Eigen::Vector3d>& points);
+/// The straight curve fitted to at least two points by least squares. It leads from the first point, projected onto it,
+/// to the last.
+AxisCurve straightCurve(const Polyline& points);
 
 }  // namespace grasp_affordances

@@ -9,12 +9,12 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kBlobLength = 1.5;  // in diameters of the shell
+constexpr double kBlobLength = 1.5;  // diameters of the shell
 constexpr std::size_t kProbes = 9;
-constexpr double kRadiusDifference = 0.01;  // m, that counts in full
-constexpr double kPieceOverlap = 0.25;
+constexpr double kRadiusDifference = 0.01;  // m, from which the difference costs kRadiusWeight
+constexpr double kPieceOverlap = 0.25;      // share of a part that is between the ends of the whole
 
-// What full differences cost besides the distance, which costs 1.
+// What the largest differences cost. The largest distance costs 1.
 constexpr double kAngleWeight = 0.3;
 constexpr double kRadiusWeight = 0.3;
 constexpr double kExtentWeight = 0.3;
@@ -24,12 +24,12 @@ constexpr double squared(double x)
   return x * x;
 }
 
-/// How an axis runs along another one.
+/// How one axis runs along another.
 struct Course
 {
   double distance = 0.0;  ///< m, mean
-  double angle = 0.0;     ///< rad, mean, without regard to the sign
-  double overlap = 0.0;   ///< share of it between the ends of the other one
+  double angle = 0.0;     ///< rad, mean, without regard to the signs
+  double overlap = 0.0;   ///< share of the axis between the ends of the other
 };
 
 Course course(const AxisCurve& curve, const AxisCurve& along)
@@ -46,7 +46,7 @@ Course course(const AxisCurve& curve, const AxisCurve& along)
   return result;
 }
 
-/// Common extent over that of both, along the longer one.
+/// The common extent of two curves over the extent that both cover together, along the longer curve.
 double commonExtent(const AxisCurve& shorter, const AxisCurve& longer)
 {
   double from = longer.foot(shorter.points().front()).s;

@@ -15,14 +15,14 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kAnother = 1.0;  // unlikeness from which it is another handle
-constexpr double kMemory = 5.0;   // lifetimes, after which a handle that was reported gets a new id where it comes back
+constexpr double kAnother = 1.0;  // unlikeness of another handle
+constexpr double kMemory = 5.0;   // lifetimes for which the id of a reported handle is kept
 
 struct Track
 {
   TrackedHandle handle;
   bool reported;
-  double last_whole;  // stamp of the last cloud in which it was not found in pieces
+  double last_whole;  // s, stamp of the last cloud in which it was not in pieces
 };
 
 }  // namespace
@@ -105,7 +105,8 @@ private:
     return cheapestAssignment(costs, kAnother);
   }
 
-  /// What is found besides a handle, but where it is known to be.
+  /// The handles that were found where a tracked one is known to be, besides the one that was matched with it. They are
+  /// pieces of it, unless it has been in pieces for longer than the lifetime. Marks the pieces as explained.
   std::vector<const GraspHandle*> takePieces(Track& track, const std::vector<GraspHandle>& found,
                                              const std::vector<HandleShape>& shapes, double stamp,
                                              std::vector<bool>& explained) const

@@ -1,5 +1,6 @@
 #include "core/tracking/tracked_handle.h"
 
+#include "core/result/axis_frame.h"
 #include "grasp_affordances/localization.h"
 
 #include <Eigen/Eigenvalues>
@@ -16,12 +17,12 @@ namespace
 {
 
 constexpr std::size_t kCurvePoints = 17;
-// An end that is found short of where it is known to be counts less: what hides a part of a handle, and samples that
-// miss it, make it shorter; nothing makes it longer as often.
+// The weight of an end that is found short of where it is known to be. It is low: something that hides a part of a
+// handle, or samples that miss it, make a handle too short, and nothing makes it too long as often.
 constexpr double kShortfallWeight = 0.25;
-constexpr double kAxisSupport = 0.5;  // of the length, over which the axis of a bent handle is taken
+constexpr double kAxisSupport = 0.5;  // share of the length over which the axis of a bent handle is taken
 
-/// The place of an extent along a curve, the end with the smaller way first.
+/// The places along a curve (m) between which another curve runs, the smaller one first.
 struct Extent
 {
   double from, to;
@@ -39,7 +40,8 @@ void approach(double& value, double found, double weight)
   value = std::isnan(value) || std::isnan(found) ? found : value + weight * (found - value);
 }
 
-/// The displacement that leads from points to a curve; beside its ends, the one at that end.
+/// Displacements (m) from points of one curve to another curve. A point beyond an end of the other curve has the
+/// displacement of that end.
 class Displacements
 {
 public:
@@ -67,8 +69,8 @@ private:
   Eigen::Vector3d at_front_, at_back_;
 };
 
-/// A pose on one curve moved along with the place there that is nearest to it, onto the other one. Where the axes are
-/// of any direction, as a blob's, it is not turned.
+/// A pose, moved from one curve to another together with the place of the first curve that is nearest to it.
+/// @param turn  whether it turns with the direction of the curve; not for a blob, whose axis may have any direction
 Eigen::Isometry3d carriedOver(const Eigen::Isometry3d& pose, const AxisCurve& from, const AxisCurve& to, bool turn)
 {
   const double s = std::clamp(from.foot(pose.translation()).s, 0.0, from.length());
@@ -139,8 +141,7 @@ void TrackedHandle::average(const GraspHandle& found, const std::vector<const Gr
     axis_scatter_ = handle_.axis * handle_.axis.transpose();
   }
   const Eigen::Vector3d normal = handle_.normal + weight * (found.normal - handle_.normal);
-  const Eigen::Vector3d across = normal - normal.dot(handle_.axis) * handle_.axis;
-  handle_.normal = across.norm() > 1e-6 ? across.normalized() : handle_.axis.unitOrthogonal();
+  handle_.normal = normalAcross(handle_.axis, normal, 1e-6);
 
   handle_.hand_poses = found.hand_poses;
   const AxisCurve curve(handle_);
@@ -149,7 +150,8 @@ void TrackedHandle::average(const GraspHandle& found, const std::vector<const Gr
   }
 }
 
-/// Every point of the curve goes a part of the way to the one found, and so do its ends along it.
+/// Every point of the known curve moves a part of the way, `weight`, to the curve that was found. So do its ends along
+/// the curve.
 AxisCurve TrackedHandle::averagedCurve(const AxisCurve& found, const std::vector<const GraspHandle*>& pieces,
                                        double weight) const
 {

@@ -11,27 +11,28 @@
 namespace grasp_affordances
 {
 
-/// A handle that was found in one or several clouds, averaged over them, in a frame in which it stands still.
+/// A handle, averaged over the clouds that it was found in. Its frame is one in which handles stand still.
 class TrackedHandle
 {
 public:
   TrackedHandle(const GraspHandle& found, double stamp);
 
-  /// @param found  it, in a cloud
-  /// @param pieces  more of it, where it was found in several pieces: they only tell how far it reaches, and have
-  /// shells
-  /// @param smoothing_time  s, of TrackingConfig; the average of so few clouds that they are newer is the plain one
+  /// Takes in what was found of it in another cloud.
+  /// @param found  the handle as it was found
+  /// @param pieces  further pieces of it: they give their shells, and tell how far the handle reaches
+  /// @param stamp  s, of the cloud
+  /// @param smoothing_time  s, of TrackingConfig. While there are few clouds, all of them have the same weight
   void update(const GraspHandle& found, const std::vector<const GraspHandle*>& pieces, double stamp,
               double smoothing_time);
 
-  /// It was not found in the cloud of that stamp.
+  /// Says that it was not found in the cloud of this stamp (s).
   void miss(double stamp);
 
-  /// As it is known, with `hits` and `unseen_for`; its id is the caller's business.
+  /// The average, with `hits` and `unseen_for`. The caller sets the id.
   const GraspHandle& handle() const { return handle_; }
   GraspHandle& handle() { return handle_; }
 
-  /// As it is known, and as it was found last, which differs where it moves.
+  /// The shape of the average, and the shape that was found last. They differ for a handle that moves.
   const HandleShape& known() const { return known_; }
   const HandleShape& last() const { return last_; }
 
@@ -46,8 +47,8 @@ private:
   GraspHandle handle_;
   HandleShape known_;
   HandleShape last_;
-  Eigen::Matrix3d axis_scatter_;  ///< mean of a a': the mean of axes without regard to their signs
-  double bent_share_;             ///< of clouds in which it was bent
+  Eigen::Matrix3d axis_scatter_;  // mean of a a^T over the axes a, so that their signs do not matter
+  double bent_share_;             // of the clouds in which it was bent
   double last_seen_;
 };
 

@@ -18,18 +18,19 @@ struct Line
   double operator()(int pixel) const { return at + slope * pixel; }
 };
 
-/// Two stretches that belong to one surface: up to `left` and from `right` on.
+/// Two stretches of a scan line that belong to one surface: one ends at the pixel `left`, the other begins at `right`.
 struct Bridge
 {
   int left, right;
   Line line;
 };
 
-/// A row or column of the image: inverse depth per pixel, NaN where nothing was measured, and how surfaces go on in it.
+/// A row or column of the image: the inverse depth of each pixel, NaN where nothing was measured, and the bridges in
+/// it.
 class ScanLine
 {
 public:
-  /// The arrays of findSurfaceEnds, from the line's own first numbers on.
+  /// Takes the arrays of findSurfaceEnds, from the first numbers of this line on.
   ScanLine(const double* inverse_depth, const double* sums) : inverse_depth_(inverse_depth), sums_(sums) {}
 
   bool measuredAt(int pixel, const Line& line) const
@@ -37,7 +38,7 @@ public:
     return std::abs(inverseDepth(pixel) - line(pixel)) <= kSurfaceTolerance;
   }
 
-  /// Calls visit(bridge) for all that are no wider than `max_width` (m) at `focal_length` (pixels).
+  /// Calls visit(bridge) for all bridges that are no wider than `max_width` (m). `focal_length`: pixels.
   template <typename Visitor>
   void visitBridges(const std::vector<int>& left, const std::vector<int>& right, double max_width, double focal_length,
                     Visitor&& visit) const;
@@ -79,7 +80,8 @@ private:
   const double* sums_;
 };
 
-/// The line through the stretches on both sides, if they lie on one and nothing between them was measured behind it.
+/// The line through the stretches on both sides. Empty where they do not lie on one line, or where something between
+/// them was measured behind it.
 std::optional<Line> ScanLine::commonLine(int left, int right) const
 {
   const Sums before = stretch(left - kStretch + 1), after = stretch(right);
@@ -119,7 +121,7 @@ void ScanLine::visitBridges(const std::vector<int>& left, const std::vector<int>
   }
 }
 
-/// By line, the pixels whose bit is set.
+/// Lists, for each line, the pixels whose bit is set.
 void listPixels(const std::vector<std::uint8_t>& bits, std::size_t size,
                 std::array<std::vector<int>, kScanLines>& pixels)
 {

@@ -16,37 +16,37 @@
 namespace grasp_affordances
 {
 
-/// Points of surfaces that go on behind what the sensor sees: the table beneath a lying can, in the can's own shadow,
-/// or the wall behind a handle.
+/// Points of surfaces that go on behind what the sensor sees: of the table beneath a lying can, in the can's own
+/// shadow, or of the wall behind a handle.
 ///
-/// A plane's image is linear in inverse depth. Wherever two stretches of an image row or column lie on one line, and
-/// all pixels between them measured something nearer or nothing, the surface is taken to go on between them; for each
-/// such pixel the result, an organized cloud of the same size, has the point of the continued surface, the farther
-/// where row and column differ, and NaN elsewhere. Every other row and column is looked at.
-/// Bridges at most `max_width` (m).
+/// A plane's image is linear in inverse depth. Where two stretches of an image row or column lie on one line, and all
+/// pixels between them measured something nearer, or nothing, the surface is taken to go on between them. Gaps of at
+/// most `max_width` (m) are bridged so. Where the sensor measured something behind that line, there is no surface, and
+/// nothing is bridged. Every other row and column is looked at.
 ///
-/// Nothing is continued past what was measured behind it: where the sensor saw beyond, there is no surface.
+/// @return an organized cloud of the same size: for each bridged pixel the point of the continued surface, the farther
+/// one where row and column differ, and NaN elsewhere
 Cloud continueSurfaces(const RangeImage& image, double max_width);
 
-/// What continueSurfaces returns, with working memory that is kept from image to image.
+/// What continueSurfaces() returns, with working memory that is kept from image to image.
 class HiddenSurfaces
 {
 public:
-  /// Replaces the cloud by the surfaces of an image that go on for at most `max_width` (m).
+  /// Replaces the cloud by the continued surfaces of another image.
   void update(const RangeImage& image, double max_width, ThreadTeam& team);
 
-  /// Takes out the points for which `seen_through(point)` holds, a function that is safe to call from many threads.
+  /// Takes out the points for which `seen_through(point)` is true. The function is called from many threads.
   template <typename Predicate>
   void remove(Predicate&& seen_through, ThreadTeam& team);
 
   const Cloud& cloud() const { return cloud_; }
 
 private:
-  /// Scan lines are every other row or column; a block of them is as wide as a tile.
+  /// Every other row or column is a scan line; a block of scan lines is as wide as a tile.
   static constexpr std::size_t kStride = 2;
   static constexpr std::size_t kTile = kStride * kScanLines;  // pixels
 
-  /// What a thread works on: a block of rows or columns.
+  /// Working memory of a thread, for a block of scan lines.
   struct Block
   {
     void resize(std::size_t pixels);

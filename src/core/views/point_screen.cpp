@@ -1,7 +1,6 @@
 #include "core/views/point_screen.h"
 
 #include "core/parallel/random.h"
-#include "core/views/sampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +10,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Where the image first falls away from a pixel, in pixels from it, along one direction.
+/// Looks for the edges around a pixel: for places from which on the image falls away.
 class EdgeFinder
 {
 public:
@@ -31,7 +30,8 @@ public:
     pitch_ = std::max(1.0F, 0.5F * gap_);
   }
 
-  /// The two edges in a direction (unit) and against it are no farther apart than the hand spans.
+  /// Whether there is an edge in a direction (unit) and one in the opposite direction, no farther apart than the hand
+  /// can span.
   bool spans(float du, float dv) const
   {
     const float ahead = distanceToEdge(du, dv, span_);
@@ -43,8 +43,9 @@ private:
 
   bool inImage(float u, float v) const { return u >= 0.0F && v >= 0.0F && u < width_ && v < height_; }
 
-  /// Looks at distances of one pitch, two, and so on. Where a gap is wider than a pitch, two in a row must be beyond
-  /// the surface, so that after one that is not the next but one is looked at first.
+  /// Pixels from the pixel to the first edge in a direction. Looks at pixels one pitch apart. Where the gap is wider
+  /// than a pitch, two of them in a row must have fallen away. Then, after one that has not, the next but one is looked
+  /// at, and the one between only if that has.
   float distanceToEdge(float du, float dv, float farthest) const
   {
     const auto pixelU = [&](float s) { return u_ + s * du + 0.5F; };
@@ -136,7 +137,7 @@ void PointScreen::update(const RangeImage& image, const HandGeometry& hand, std:
   }
 }
 
-/// How many more lattices it takes until there are enough points, if they go on as they began; at least one.
+/// How many more lattices will give enough points, if each gives as many as those before did on average; at least one.
 std::size_t PointScreen::latticesMissing(std::size_t done, std::size_t enough) const
 {
   return points_.empty() ? kLattices : ((enough - points_.size()) * done + points_.size() - 1) / points_.size();

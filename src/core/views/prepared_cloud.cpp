@@ -19,6 +19,11 @@ SphereView unseen(const Neighborhood& neighborhood)
 
 }  // namespace
 
+std::string nothingToLocalize(NothingSampled reason)
+{
+  return std::string("nothing to localize: ") + describe(reason);
+}
+
 void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const Eigen::Isometry3d& T_workspace_cloud,
                            ThreadTeam& team)
 {
@@ -27,17 +32,17 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
   search = nullptr;
   sensor.setZero();
   warnings.clear();
+  nothing_sampled.reset();
   screen.clear();
   hidden_search.reset();
   limited_ = false;
   listMeasured();
   if (measured.empty()) {
-    warnings.emplace_back(cloud->size() == 0 ? "nothing to localize: the cloud is empty"
-                                             : "nothing to localize: all points are NaN, zero or infinite");
+    leaveOut(cloud->size() == 0 ? NothingSampled::empty_cloud : NothingSampled::nothing_measured);
     return;
   }
   if (allCoincide()) {
-    warnings.emplace_back("nothing to localize: all measured points coincide");
+    leaveOut(NothingSampled::points_coincide);
     return;
   }
 
@@ -72,6 +77,12 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
   }
 }
 
+void PreparedCloud::leaveOut(NothingSampled reason)
+{
+  nothing_sampled = reason;
+  warnings.push_back(nothingToLocalize(reason));
+}
+
 void PreparedCloud::listMeasured()
 {
   measured.resize(countMeasured(cloud->x.data(), cloud->size()));
@@ -87,17 +98,19 @@ bool PreparedCloud::allCoincide() const
 void PreparedCloud::findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud,
                                   ThreadTeam& team)
 {
-  constexpr double kNoLimit = WorkspaceConfig::kNoLimit;
-  const Eigen::Array3d lower(workspace.min_x, workspace.min_y, workspace.min_z);
-  const Eigen::Array3d upper(workspace.max_x, workspace.max_y, workspace.max_z);
-  limited_ = (lower > -kNoLimit).any() || (upper < kNoLimit).any();
+  limited_ = workspace.isLimit();
   if (!limited_) {
     return;
   }
+  using Sides = Eigen::Array<bool, 3, 1>;
+  const Eigen::Array3d lower(workspace.min_x, workspace.min_y, workspace.min_z);
+  const Eigen::Array3d upper(workspace.max_x, workspace.max_y, workspace.max_z);
+  const Sides open_below = !lower.unaryExpr([](double min) { return WorkspaceConfig::isLowerLimit(min); });
+  const Sides open_above = !upper.unaryExpr([](double max) { return WorkspaceConfig::isUpperLimit(max); });
   is_within_.resize(cloud->size());
   const auto isWithin = [&](std::size_t i) {
     const Eigen::Array3d point = T_workspace_cloud * cloud->point(i).cast<double>();
-    return ((point >= lower || lower <= -kNoLimit) && (point <= upper || upper >= kNoLimit)).all();
+    return ((point >= lower || open_below) && (point <= upper || open_above)).all();
   };
   constexpr std::size_t kBatch = 4096;
   team.forEach((cloud->size() + kBatch - 1) / kBatch, [&](std::size_t batch, std::size_t) {

@@ -2,6 +2,7 @@
 
 #include "grasp_affordances/cloud.h"
 #include "grasp_affordances/config.h"
+#include "grasp_affordances/localization.h"
 
 #include "core/cloud/range_image.h"
 #include "core/fit/surface_normals.h"
@@ -22,8 +23,11 @@
 namespace grasp_affordances
 {
 
-/// One cloud, prepared for sampling: what all samples share and none changes. Keeps its memory from cloud to cloud.
-/// Neither copied nor moved, since its parts refer to one another.
+/// The warning of a cloud, or of the clouds of a moment, in which no sample is drawn.
+std::string nothingToLocalize(NothingSampled reason);
+
+/// One cloud, prepared for sampling: what all samples read and none changes. Keeps its memory from cloud to cloud. It
+/// is neither copied nor moved, since its parts refer to one another.
 class PreparedCloud
 {
 public:
@@ -31,19 +35,20 @@ public:
   PreparedCloud(const PreparedCloud&) = delete;
   PreparedCloud& operator=(const PreparedCloud&) = delete;
 
-  /// Prepares another cloud, which must outlive its use.
+  /// Prepares another cloud. The cloud must stay as it is for as long as this one is used.
   void update(const Cloud& cloud, const Config& config, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
 
-  /// The points within a sphere, with their indices or without, and what the sensor sees of it: of the latter no more
-  /// than their number, where there is no range image. Safe to call from many threads.
+  /// Gathers the points within a sphere, with or without their indices. Safe to call from many threads.
+  /// @return what the sensor sees of the sphere; without a range image the number of its points alone
   SphereView gather(const Eigen::Vector3f& center, float radius, bool with_index, Neighborhood& neighborhood) const;
 
-  /// The same for the k nearest points, with what the sensor sees of their sphere if asked for.
+  /// Gathers the k nearest points. Safe to call from many threads.
+  /// @return what the sensor sees of their sphere; without a range image, or without `with_view`, their number alone
   SphereView gatherNearest(const Eigen::Vector3f& center, std::size_t k, bool with_view,
                            Neighborhood& neighborhood) const;
 
   /// The points that samples are drawn from: the measured ones within the workspace.
-  const std::vector<std::uint32_t>& points() const { return limited_ ? within_ : measured; }
+  const std::vector<std::uint32_t>& drawablePoints() const { return limited_ ? within_ : measured; }
 
   /// Whether samples may be drawn at a measured point.
   bool allows(std::uint32_t point) const { return !limited_ || is_within_[point] != 0; }
@@ -54,23 +59,25 @@ public:
   const Cloud* cloud = nullptr;
   std::vector<std::uint32_t> measured;  // indices of the measured points
   std::optional<RangeImage> image;
-  PointScreen screen;
+  PointScreen screen;                          // empty without an image
   const NeighborhoodSearch* search = nullptr;  // null where there is nothing to localize
-  HiddenSurfaces hidden;                       // that go on behind what the sensor saw; with an image only
-  std::optional<RangeImage> hidden_image;
-  std::optional<WindowSearch> hidden_search;         // none where no hidden surfaces are asked for
+  HiddenSurfaces hidden;                       // surfaces that go on behind others; valid with hidden_search
+  std::optional<RangeImage> hidden_image;      // of `hidden`
+  std::optional<WindowSearch> hidden_search;   // in `hidden`; none without an image, or where they are not asked for
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // m, in the cloud's frame
-  SurfaceNormals normals;                            // only for the Normals variation
+  SurfaceNormals normals;                            // for the Normals variation only
+  std::optional<NothingSampled> nothing_sampled;     // why there is nothing to localize; empty where there is something
   std::vector<std::string> warnings;
 
 private:
+  void leaveOut(NothingSampled reason);
   void listMeasured();
   bool allCoincide() const;
   void findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
 
   std::optional<WindowSearch> window_search_;
   std::unique_ptr<NeighborhoodSearch> tree_search_;
-  bool limited_ = false;                 // to a workspace
+  bool limited_ = false;                 // whether a workspace limits where samples are drawn
   std::vector<std::uint32_t> within_;    // where limited, the measured points within the workspace
   std::vector<std::uint8_t> is_within_;  // where limited, per point
 };

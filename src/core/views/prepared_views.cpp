@@ -1,7 +1,7 @@
 #include "core/views/prepared_views.h"
 
 #include "core/fit/principal_axis.h"
-#include "core/views/sampling.h"
+#include "core/views/stratified_draw.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Where a neighborhood is all points within a sphere: its radius (m).
+/// m, of the sphere of a neighborhood of kind `radius`.
 float sphereRadius(const Config& config)
 {
   const double radius = config.neighborhood.radius;
@@ -30,6 +30,7 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
   }
   views_.clear();
   warnings.clear();
+  nothing_sampled = NothingSampled::no_cloud;
   measured = 0;
   disagreement = std::numeric_limits<double>::quiet_NaN();
   std::uint32_t first_point = 0;
@@ -39,11 +40,12 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
     for (const std::string& warning : cloud.warnings) {
       warnings.push_back(views.size() == 1 ? warning : "view " + std::to_string(i + 1) + ": " + warning);
     }
-    if (!views[i].T_common_cloud.matrix().cast<float>().allFinite()) {  // else one relative to another may be no number
+    if (!views[i].T_common_cloud.matrix().cast<float>().allFinite()) {  // relative poses might then be NaN
       warnings.push_back("view " + std::to_string(i + 1) + ": its pose is not finite in single precision");
     } else if (cloud.search != nullptr) {
       views_.push_back({i + 1, &cloud, views[i].T_common_cloud, first_point});
     }
+    nothing_sampled = std::max(nothing_sampled, cloud.nothing_sampled.value_or(NothingSampled::no_cloud));
     measured += static_cast<std::uint32_t>(cloud.measured.size());
     first_point += static_cast<std::uint32_t>(views[i].cloud->size());
   }
@@ -58,7 +60,8 @@ void PreparedViews::update(const std::vector<PosedCloud>& views, const Config& c
     uncoverHiddenSurfaces(config.hand.finger_thickness, team);
   }
   if (!views_.empty() && !hasSamples()) {
-    warnings.emplace_back("nothing to localize: no measured point lies within the workspace");
+    nothing_sampled = NothingSampled::outside_workspace;
+    warnings.push_back(nothingToLocalize(nothing_sampled));
   }
   if (hasSamples() && config.estimation.estimator == Estimator::normals) {
     for (const View& view : views_) {
@@ -71,20 +74,20 @@ void PreparedViews::joinPoints()
 {
   points_.clear();
   for (const View& view : views_) {
-    const std::vector<std::uint32_t>& all = view.cloud->points();
+    const std::vector<std::uint32_t>& all = view.cloud->drawablePoints();
     std::transform(all.begin(), all.end(), std::back_inserter(points_),
                    [&](std::uint32_t point) { return view.first_point + point; });
   }
   joinScreened();
 }
 
-/// By turns, so that the views have the same share in the first of these points as in all: the samples of a first round
-/// are drawn from those.
+/// The views take turns, so that each has the same share of the first points of the list as of the whole list: a first
+/// round draws its samples from the first points.
 void PreparedViews::joinScreened()
 {
   screened_.clear();
   if (!allHaveImages()) {
-    return;  // what cannot be screened would hardly be sampled
+    return;  // points of a view without an image cannot be screened, and would hardly be drawn
   }
   std::size_t total = 0;
   for (View& view : views_) {
@@ -125,33 +128,16 @@ void PreparedViews::relateViews()
 
 void PreparedViews::compareViews(ThreadTeam& team)
 {
-  comparisons_.resize(size() * (size() - 1) / 2);
-  auto comparison = comparisons_.begin();
-  for (std::size_t first = 0; first < size(); ++first) {
-    for (std::size_t second = first + 1; second < size(); ++second, ++comparison) {
-      comparison->first = first;
-      comparison->second = second;
-    }
+  compared_.clear();
+  for (const View& view : views_) {
+    compared_.push_back({view.number, view.cloud->image ? &*view.cloud->image : nullptr, view.T_common_cloud});
   }
-  team.forEach(comparisons_.size(), [this](std::size_t i, std::size_t) {
-    auto& [first, second, distance, agreement] = comparisons_[i];
-    const std::optional<RangeImage>&of_first = views_[first].cloud->image, &of_second = views_[second].cloud->image;
-    distance = of_first && of_second ? agreement.disagreement(*of_first, *of_second, transform(first, second))
-                                     : std::numeric_limits<double>::quiet_NaN();
-  });
-  for (const Comparison& compared : comparisons_) {
-    disagreement = std::fmax(disagreement, compared.disagreement);
-    constexpr double kMisplaced = 0.015;  // m; twice what exact poses were seen to cause
-    if (compared.disagreement > kMisplaced) {
-      warnings.push_back("views " + std::to_string(views_[compared.first].number) + " and " +
-                         std::to_string(views_[compared.second].number) + " place the same surfaces " +
-                         std::to_string(std::lround(1000.0 * compared.disagreement)) +
-                         " mm apart: their poses may be wrong");
-    }
-  }
+  comparison_.compare(compared_, team);
+  disagreement = comparison_.disagreement();
+  warnings.insert(warnings.end(), comparison_.warnings().begin(), comparison_.warnings().end());
 }
 
-/// What one view takes to be hidden, another may have seen through.
+/// Takes out points of hidden surfaces where another view saw through.
 void PreparedViews::uncoverHiddenSurfaces(double margin, ThreadTeam& team)
 {
   for (std::size_t view = 0; view < size(); ++view) {
@@ -171,7 +157,7 @@ void PreparedViews::uncoverHiddenSurfaces(double margin, ThreadTeam& team)
   }
 }
 
-/// Whether a view measured something farther than a point in its frame, by more than a margin (m).
+/// Whether a view measured something that is farther away than a point (in the view's frame) by more than a margin (m).
 bool PreparedViews::sawThrough(std::size_t view, const Eigen::Vector3d& point, double margin) const
 {
   const RangeImage& image = *views_[view].cloud->image;
@@ -180,13 +166,13 @@ bool PreparedViews::sawThrough(std::size_t view, const Eigen::Vector3d& point, d
          image.cloud().point(*pixel).cast<double>().norm() > point.norm() + margin;
 }
 
-PreparedViews::SamplePoint PreparedViews::samplePoint(const SamplingConfig& config, std::uint64_t i) const
+PreparedViews::MeasuredPoint PreparedViews::drawAnywhere(const SamplingConfig& config, std::uint64_t i) const
 {
   const std::vector<std::uint32_t>& screened = size() == 1 ? views_[0].cloud->screen.points() : screened_;
-  return viewOf(grasp_affordances::samplePoint(samplePoints(), screened, config, i));
+  return viewOf(drawStratified(drawablePoints(), screened, config, i));
 }
 
-PreparedViews::SamplePoint PreparedViews::viewOf(std::uint32_t point) const
+PreparedViews::MeasuredPoint PreparedViews::viewOf(std::uint32_t point) const
 {
   if (size() == 1) {
     return {0, point};
@@ -203,14 +189,14 @@ bool PreparedViews::allHaveImages() const
   return std::all_of(views_.begin(), views_.end(), [](const View& view) { return view.cloud->image.has_value(); });
 }
 
-Eigen::Vector3f PreparedViews::centerIn(std::size_t view, const SamplePoint& sample) const
+Eigen::Vector3f PreparedViews::centerIn(std::size_t view, const MeasuredPoint& sample) const
 {
   const Eigen::Vector3f center = views_[sample.view].cloud->cloud->point(sample.point);
   return view == sample.view ? center
                              : Eigen::Vector3f((transform(view, sample.view) * center.cast<double>()).cast<float>());
 }
 
-std::size_t PreparedViews::look(const SamplePoint& sample, const Config& config, SphereView* spheres) const
+std::size_t PreparedViews::look(const MeasuredPoint& sample, const Config& config, SphereView* spheres) const
 {
   std::size_t points = 0;
   for (std::size_t view = 0; view < size(); ++view) {
@@ -220,8 +206,8 @@ std::size_t PreparedViews::look(const SamplePoint& sample, const Config& config,
   return points;
 }
 
-void PreparedViews::gather(const SamplePoint& sample, const Config& config, bool with_index, Neighborhood& neighborhood,
-                           SphereView* spheres, Neighborhood& part) const
+void PreparedViews::gather(const MeasuredPoint& sample, const Config& config, bool with_index,
+                           Neighborhood& neighborhood, SphereView* spheres, Neighborhood& part) const
 {
   const PreparedCloud& own = *views_[sample.view].cloud;
   const Eigen::Vector3f center = centerIn(sample.view, sample);
@@ -242,13 +228,13 @@ void PreparedViews::gather(const SamplePoint& sample, const Config& config, bool
   }
 }
 
-/// The distance of the k-th nearest point of all views, or of the last where there are fewer.
-float PreparedViews::radiusOfNearest(const SamplePoint& sample, const Config& config, Neighborhood& joined,
+/// m, distance of the k-th nearest point of all views, or of the farthest point where there are fewer than k.
+float PreparedViews::radiusOfNearest(const MeasuredPoint& sample, const Config& config, Neighborhood& joined,
                                      Neighborhood& part) const
 {
   const auto k = static_cast<std::size_t>(config.neighborhood.k);
   views_[sample.view].cloud->search->nearest(centerIn(sample.view, sample), k, joined);
-  const bool bounded = joined.size() == k;  // then no point of another view counts that is farther than these
+  const bool bounded = joined.size() == k;  // then points of other views that are farther than these do not count
   for (std::size_t view = 0; view < size(); ++view) {
     if (view != sample.view) {
       const NeighborhoodSearch& search = *views_[view].cloud->search;
@@ -274,9 +260,9 @@ bool PreparedViews::occluded(const OcclusionConfig& config, const SphereView* sp
   return true;
 }
 
-/// Calls visit(view, begin, count) for the points of a gathered neighborhood that each view contributed.
+/// Calls visit(view, begin, count) for each view: which points of a gathered neighborhood it contributed.
 template <typename Visitor>
-void PreparedViews::visitParts(const SamplePoint& sample, const SphereView* spheres, Visitor&& visit) const
+void PreparedViews::visitParts(const MeasuredPoint& sample, const SphereView* spheres, Visitor&& visit) const
 {
   std::size_t begin = spheres[sample.view].survey.points;
   visit(sample.view, std::size_t{0}, begin);
@@ -288,7 +274,7 @@ void PreparedViews::visitParts(const SamplePoint& sample, const SphereView* sphe
   }
 }
 
-std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const SamplePoint& sample, const Neighborhood& neighborhood,
+std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const MeasuredPoint& sample, const Neighborhood& neighborhood,
                                                           const SphereView* spheres) const
 {
   if (size() == 1) {
@@ -303,8 +289,8 @@ std::optional<Eigen::Vector3d> PreparedViews::normalsAxis(const SamplePoint& sam
   return grasp_affordances::normalsAxis(scatter);
 }
 
-/// Those of all points in the neighborhoods of the samples that are not occluded.
-void PreparedViews::estimateNormals(const Config& config, const SamplePoint* samples, std::size_t count,
+/// At all points in the neighborhoods of those samples that are not occluded.
+void PreparedViews::estimateNormals(const Config& config, const MeasuredPoint* samples, std::size_t count,
                                     ThreadTeam& team, const Cancellation& cancellation)
 {
   neighborhoods_.resize(2 * team.size());
@@ -315,7 +301,7 @@ void PreparedViews::estimateNormals(const Config& config, const SamplePoint* sam
     }
     Neighborhood& neighborhood = neighborhoods_[2 * member];
     SphereView* spheres = &spheres_[member * size()];
-    const SamplePoint& sample = samples[i];
+    const MeasuredPoint& sample = samples[i];
     gather(sample, config, true, neighborhood, spheres, neighborhoods_[2 * member + 1]);
     if (!config.occlusion.filter || !occluded(config.occlusion, spheres)) {
       visitParts(sample, spheres, [&](std::size_t view, std::size_t begin, std::size_t count) {

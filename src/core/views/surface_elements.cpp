@@ -14,13 +14,12 @@ namespace
 
 constexpr double kCells = 8000.0;
 constexpr std::size_t kSamples = 1000;
-constexpr float kMaxDepth = 3.0F;  // m, beyond which noise hides what is smooth
-constexpr float kMaxDeparture =
-    0.015F;                         // m at a depth of 1 m, growing with its square as noise does, from a straight line
-constexpr float kMinCosine = 0.2F;  // of the angle under which the sensor sees the surface
-constexpr double kSameWay = 0.7;    // cosine
+constexpr float kMaxDepth = 3.0F;        // m; farther away, noise hides whether a surface is smooth
+constexpr float kMaxDeparture = 0.015F;  // m from a straight line, at a depth of 1 m; grows with its square, as noise
+constexpr float kMinCosine = 0.2F;       // of the angle between the normal and the direction to the sensor
+constexpr double kSameWay = 0.7;         // cosine of the angle between normals that count as alike
 
-/// Difference between the points on either side of one, `reach` pixels of the given stride away; empty where these
+/// Difference between two points, `reach` steps of the given stride before and after a middle one. Empty where the
 /// three do not lie on one smooth surface.
 std::optional<Eigen::Vector3f> tangent(const Cloud& cloud, std::size_t middle, std::size_t stride, int reach)
 {
@@ -32,7 +31,7 @@ std::optional<Eigen::Vector3f> tangent(const Cloud& cloud, std::size_t middle, s
   return cloud.point(after) - cloud.point(before);
 }
 
-/// Tangents over the longer reach suffer less from noise; small parts have room for the shorter one only.
+/// A tangent over the longer reach suffers less from noise; small parts have room for the shorter reach only.
 std::optional<Eigen::Vector3f> tangent(const Cloud& cloud, std::size_t middle, std::size_t stride, int longer,
                                        int shorter)
 {
@@ -58,7 +57,8 @@ std::optional<SurfaceElement> elementAt(const Cloud& cloud, std::size_t pixel, i
   return SurfaceElement{point.cast<double>(), normal.cast<double>()};
 }
 
-/// Cell of a grid on the octahedron, folded over its front: sensors see only what faces them.
+/// The class of a normal's direction: a cell of a grid on the half of the octahedron that faces the sensor, since the
+/// sensor sees only surfaces that face it.
 std::size_t direction(const Eigen::Vector3d& normal, std::size_t directions)
 {
   const auto side = static_cast<std::size_t>(std::lround(std::sqrt(directions)));
@@ -100,7 +100,7 @@ void SurfaceElements::compute(const RangeImage& image)
   drawSamples();
 }
 
-/// As many of every direction, or all where there are fewer.
+/// Takes equally many elements of every class of directions, or all where a class has fewer.
 void SurfaceElements::drawSamples()
 {
   std::array<std::size_t, kDirections> sizes;

@@ -12,26 +12,27 @@
 namespace grasp_affordances
 {
 
-/// A point of a surface, and which way the surface faces there.
+/// A point of a surface, with the normal there.
 struct SurfaceElement
 {
   Eigen::Vector3d point;   ///< m
   Eigen::Vector3d normal;  ///< unit, towards the sensor that measured it
 };
 
-/// Surface elements of a range image on a grid of some 8000 cells, in its optical frame: one for each cell the middle
-/// of which shows surface that is smooth over a centimetre or two, within 3 m. Keeps its memory from image to image.
+/// Surface elements of a range image, in its optical frame. The image is divided into some 8000 cells. A cell has an
+/// element where its middle shows a surface that is no farther than 3 m and smooth over a centimetre or two. Keeps its
+/// memory from image to image.
 class SurfaceElements
 {
 public:
   void compute(const RangeImage& image);
 
-  /// Of the elements near the pixel that a point falls on, in its cell and the eight around that, the closest one that
-  /// faces the same way within 45 degrees; null where there is none.
+  /// The closest of the elements in the cell that the given element's point projects to and in the eight cells around
+  /// it, among those whose normal is within 45 degrees of the given one. Null where there is none.
   const SurfaceElement* closest(const SurfaceElement& element) const;
 
-  /// Some 1000 of the elements, or all where there are fewer, spread as evenly as they allow over the directions that
-  /// they face (normal-space sampling, Rusinkiewicz and Levoy 2001): otherwise nearly all would lie on the table.
+  /// Some 1000 of the elements, or all where there are fewer, whose normals are spread as evenly as possible over all
+  /// directions (normal-space sampling, Rusinkiewicz and Levoy 2001). Otherwise nearly all would lie on the table.
   const std::vector<SurfaceElement>& samples() const { return samples_; }
 
 private:

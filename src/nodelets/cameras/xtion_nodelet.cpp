@@ -35,7 +35,8 @@ constexpr std::chrono::milliseconds kPoll{100};   // how long nothing but frames
 constexpr std::chrono::milliseconds kRetry{500};  // between attempts to open the device
 constexpr double kTimeoutsBeforeReopening = 4.0;  // a stalled device may recover by being opened anew
 
-enum class Outcome
+/// Why no more frames come.
+enum class StreamEnd
 {
   closing,
   disconnected,
@@ -74,9 +75,9 @@ private:
 
   void run();
   void open();
-  Outcome serve();
-  Outcome serveUntilEnd();
-  bool goOnAfter(Outcome outcome);
+  StreamEnd serve();
+  StreamEnd serveUntilEnd();
+  bool goOnAfter(StreamEnd end);
   void complain(const std::exception& error);
   bool readFrame();                               // waits a little; returns whether there was one
   std::chrono::duration<double> silence() const;  // of the stream that owes a frame for longest
@@ -160,9 +161,9 @@ void XtionNodelet::run()
   while (goes_on) {
     try {
       open();
-      const Outcome outcome = serve();
+      const StreamEnd end = serve();
       device_.reset();
-      goes_on = goOnAfter(outcome);
+      goes_on = goOnAfter(end);
     } catch (const std::exception& error) {  // DeviceError, or no memory for a frame
       device_.reset();
       complain(error);
@@ -188,7 +189,7 @@ void XtionNodelet::open()
   }
 }
 
-Outcome XtionNodelet::serve()
+StreamEnd XtionNodelet::serve()
 {
   try {
     return serveUntilEnd();
@@ -196,22 +197,22 @@ Outcome XtionNodelet::serve()
     // OpenNI2 may fail before it tells that the device was pulled out.
     pause(kRetry);
     if (!device_->connected()) {
-      return Outcome::disconnected;
+      return StreamEnd::disconnected;
     }
     if (diagnostics_->setState(DeviceState::stalled, std::string("stalled: ") + error.what())) {
       NODELET_WARN_STREAM(device_->uri() << " has stalled: " << error.what());
     }
-    return Outcome::stalled;
+    return StreamEnd::stalled;
   }
 }
 
-Outcome XtionNodelet::serveUntilEnd()
+StreamEnd XtionNodelet::serveUntilEnd()
 {
   const double reopening = kTimeoutsBeforeReopening * parameters_.frame_timeout;
   while (pause(std::chrono::milliseconds(0))) {
     diagnostics_->update();
     if (!device_->connected()) {
-      return Outcome::disconnected;
+      return StreamEnd::disconnected;
     }
     for (const auto& stream : streams_) {
       stream->runIfWanted(*device_);
@@ -219,13 +220,13 @@ Outcome XtionNodelet::serveUntilEnd()
     // In this order: the frames before the end still wait to be read.
     const bool at_end = device_->atEnd();
     if (!readFrame() && at_end) {
-      return Outcome::ended;
+      return StreamEnd::ended;
     }
     if (silence().count() > reopening && !device_->isRecording()) {
-      return Outcome::stalled;
+      return StreamEnd::stalled;
     }
   }
-  return Outcome::closing;
+  return StreamEnd::closing;
 }
 
 bool XtionNodelet::readFrame()
@@ -262,12 +263,12 @@ std::chrono::duration<double> XtionNodelet::silence() const
   return longest;
 }
 
-bool XtionNodelet::goOnAfter(Outcome outcome)
+bool XtionNodelet::goOnAfter(StreamEnd end)
 {
-  if (outcome == Outcome::disconnected) {
+  if (end == StreamEnd::disconnected) {
     NODELET_WARN_STREAM(diagnostics_->uri() << " was disconnected; waiting for it");
     diagnostics_->setState(DeviceState::disconnected, "disconnected");
-  } else if (outcome == Outcome::ended && !parameters_.playback_loop) {
+  } else if (end == StreamEnd::ended && !parameters_.playback_loop) {
     NODELET_INFO_STREAM("end of " << diagnostics_->uri());
     diagnostics_->setState(DeviceState::ended, "end of the recording");
     while (pause(kPoll)) {

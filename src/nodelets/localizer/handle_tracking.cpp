@@ -1,6 +1,7 @@
 #include "nodelets/localizer/handle_tracking.h"
 
 #include <chrono>
+#include <utility>
 
 namespace grasp_affordances
 {
@@ -33,12 +34,12 @@ const std::vector<GraspHandle>& HandleTracking::update(const std::vector<GraspHa
     return handles_;
   }
   for (GraspHandle& handle : handles_) {
-    transform(fixed_frame.T_fixed_output, handle);
+    handle = transformed(std::move(handle), fixed_frame.T_fixed_output);
   }
   handles_ = tracker_.update(handles_, secondsOf(header.stamp));
   const Eigen::Isometry3d T_output_fixed = fixed_frame.T_fixed_output.inverse();
   for (GraspHandle& handle : handles_) {
-    transform(T_output_fixed, handle);
+    handle = transformed(std::move(handle), T_output_fixed);
   }
   return handles_;
 }

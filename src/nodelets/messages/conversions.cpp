@@ -1,5 +1,6 @@
 #include "nodelets/messages/conversions.h"
 
+#include "core/result/axis_frame.h"
 #include "grasp_affordances/parameters.h"
 
 #include <Eigen/Geometry>
@@ -57,7 +58,7 @@ geometry_msgs::Pose poseMessage(const Eigen::Vector3d& origin, const Eigen::Vect
                                 const Eigen::Vector3d& normal)
 {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() << normal, axis.cross(normal), axis;
+  pose.linear() = rotationAlong(axis, normal);
   pose.translation() = origin;
   return poseMessage(pose);
 }

@@ -1,5 +1,6 @@
 #include "nodelets/messages/handle_markers.h"
 
+#include "core/result/axis_frame.h"
 #include "nodelets/messages/conversions.h"
 #include "nodelets/messages/score_color.h"
 
@@ -162,7 +163,7 @@ InteractiveMarker handleMarker(const GraspHandle& handle, const std_msgs::Header
                                const std::optional<GraspPose>& hand, const HandGeometry& geometry)
 {
   Eigen::Isometry3d T_header_handle = Eigen::Isometry3d::Identity();
-  T_header_handle.linear() << handle.normal, handle.axis.cross(handle.normal), handle.axis;
+  T_header_handle.linear() = rotationAlong(handle.axis, handle.normal);
   T_header_handle.translation() = handle.centroid;
   const Eigen::Isometry3d T_handle_header = T_header_handle.inverse();
 

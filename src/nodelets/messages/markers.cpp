@@ -1,5 +1,7 @@
 #include "nodelets/messages/markers.h"
 
+#include "core/result/axis_frame.h"
+#include "core/result/polyline.h"
 #include "nodelets/messages/conversions.h"
 #include "nodelets/messages/score_color.h"
 
@@ -106,7 +108,7 @@ std::vector<Eigen::Vector3d> tangents(const std::vector<Eigen::Vector3d>& line)
 {
   std::vector<Eigen::Vector3d> tangents;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    tangents.push_back((line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0]).stableNormalized());
+    tangents.push_back(chordAround(line, i).stableNormalized());
   }
   return tangents;
 }
@@ -118,8 +120,7 @@ std::vector<std::array<Eigen::Vector3d, kTubeSides>> rings(const std::vector<Eig
   std::vector<std::array<Eigen::Vector3d, kTubeSides>> rings(line.size());
   Eigen::Vector3d normal = along.front().unitOrthogonal();
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const Eigen::Vector3d across = normal - normal.dot(along[i]) * along[i];
-    normal = across.norm() > 1e-6 ? Eigen::Vector3d(across.normalized()) : along[i].unitOrthogonal();
+    normal = normalAcross(along[i], normal, 1e-6);
     const Eigen::Vector3d third = along[i].cross(normal);
     for (int k = 0; k < kTubeSides; ++k) {
       const double angle = 2.0 * M_PI * k / kTubeSides;
@@ -200,18 +201,11 @@ Marker handsMarker(const std_msgs::Header& header, const GraspHandle& handle, co
   return marker;
 }
 
-bool isLimit(const WorkspaceConfig& box)
-{
-  const WorkspaceConfig none;
-  return box.min_x > none.min_x || box.max_x < none.max_x || box.min_y > none.min_y || box.max_y < none.max_y ||
-         box.min_z > none.min_z || box.max_z < none.max_z;
-}
-
 /// The lower and upper end of a side that is drawn: where there is no limit, somewhere beyond what is seen.
 std::array<double, 2> drawnSide(double min, double max)
 {
-  const double lower = min > -WorkspaceConfig::kNoLimit ? min : std::min(-kOpenSide, max - kOpenSide);
-  const double upper = max < WorkspaceConfig::kNoLimit ? max : std::max(kOpenSide, min + kOpenSide);
+  const double lower = WorkspaceConfig::isLowerLimit(min) ? min : std::min(-kOpenSide, max - kOpenSide);
+  const double upper = WorkspaceConfig::isUpperLimit(max) ? max : std::max(kOpenSide, min + kOpenSide);
   return {lower, upper};
 }
 
@@ -272,7 +266,7 @@ visualization_msgs::MarkerArray LocalizationMarkers::update(const std::vector<Sh
       array.markers.push_back(handsMarker(header, handle, config));
     }
   }
-  if (isLimit(config.workspace)) {
+  if (config.workspace.isLimit()) {
     std_msgs::Header workspace_header = header;
     workspace_header.frame_id = workspace_frame;
     array.markers.push_back(workspaceMarker(workspace_header, config.workspace));

@@ -16,7 +16,7 @@ struct NodeParameters
 {
   Config config;
   bool lazy = true;                ///< subscribe only while somebody listens to an output
-  bool on_demand = false;          ///< localize only in clouds that are asked for, see NextCloud
+  bool on_demand = false;          ///< localize only in clouds that are asked for, see TriggerService
   double max_rate = 0.0;           ///< Hz, of clouds that are localized in unasked; 0: as fast as they come
   std::string workspace_frame;     ///< of the box in `config`; empty: the frame of the cloud
   std::string target_frame;        ///< of the outputs; empty: the frame of the cloud

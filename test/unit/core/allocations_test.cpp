@@ -4,7 +4,7 @@
 #include "core/hand_poses/hand_pose_search.h"
 #include "core/parallel/thread_team.h"
 #include "core/views/prepared_views.h"
-#include "core/views/view_agreement.h"
+#include "core/views/view_comparison.h"
 #include "simulation/camera_orbit.h"
 #include "support/sanitizers.h"
 #include "support/scenes.h"

@@ -1,21 +1,18 @@
 #include "grasp_affordances/localizer.h"
 
-#include "core/kernels/instruction_sets.h"
 #include "core/parallel/thread_team.h"
 #include "core/parallel/time_budget.h"
-#include "core/sample_block.h"
-#include "core/sample_draw.h"
+#include "core/sample_loop.h"
 #include "core/views/prepared_views.h"
-#include "core/views/sampling.h"
-#include "simulation/camera_orbit.h"
+#include "core/views/stratified_draw.h"
 #include "support/points.h"
 #include "support/scenes.h"
 #include "support/shells.h"
+#include "support/table.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -30,83 +27,20 @@ namespace
 {
 
 using Pose = Eigen::Isometry3d;
-using SamplePoint = PreparedViews::SamplePoint;
-
-const Cloud& table()
-{
-  static const Cloud cloud = captureScene("table", 1).cloud;
-  return cloud;
-}
-
-Cloud unorganized(Cloud cloud)
-{
-  cloud.width *= cloud.height;
-  cloud.height = 1;
-  cloud.intrinsics.reset();
-  return cloud;
-}
-
-/// A table from two sides, and the views of it in its frame.
-struct TwoViews
-{
-  TwoViews()
-  {
-    const View view = makeScene("table", 1);
-    for (const double turn : {0.0, M_PI / 2}) {
-      const View turned = viewFromAside(view, turn);
-      clouds.push_back(Xtion().capture(turned.scene, turned.T_scene_camera, 1 + clouds.size()).cloud);
-      poses.push_back(turned.T_scene_camera);
-    }
-  }
-
-  std::vector<PosedCloud> posed() const { return {{&clouds[0], poses[0]}, {&clouds[1], poses[1]}}; }
-
-  std::vector<Cloud> clouds;
-  std::vector<Pose> poses;
-};
-
-const TwoViews& tableFromTwoSides()
-{
-  static const TwoViews views;
-  return views;
-}
+using MeasuredPoint = PreparedViews::MeasuredPoint;
 
 /// All rounds of a localization, one after another.
 struct Drawing
 {
-  Drawing(const std::vector<PosedCloud>& clouds, const Config& config, int threads = 1) : team(threads)
+  Drawing(const std::vector<PosedCloud>& clouds, const Config& config) : team(1)
   {
     views.update(clouds, config, Pose::Identity(), team);
-    run(config);
+    loop.run({views, config, team, TimeBudget(0.0), Cancellation()});
   }
 
-  Drawing(const Cloud& cloud, const Config& config, int threads = 1)
-      : Drawing(std::vector<PosedCloud>{{&cloud, Pose::Identity()}}, config, threads)
+  Drawing(const Cloud& cloud, const Config& config)
+      : Drawing(std::vector<PosedCloud>{{&cloud, Pose::Identity()}}, config)
   {
-  }
-
-  void run(const Config& config)
-  {
-    results.resize(static_cast<std::size_t>(config.sampling.samples));
-    draw.start(views, config);
-    for (std::size_t begin = 0; begin < draw.size();) {
-      const std::size_t end = draw.drawRound(views, config, results.data(), team);
-      EXPECT_GT(end, begin);
-      EXPECT_LE(end, draw.size());
-      if (end <= begin || end > draw.size()) {
-        return;
-      }
-      if (config.estimation.estimator == Estimator::normals) {
-        views.estimateNormals(config, draw.points() + begin, end - begin, team);
-      }
-      SampleBlock block;
-      for (std::size_t i = begin; i < end; i += SampleBlock::kSamples) {
-        block.examine(views, config, i, std::min(end, i + SampleBlock::kSamples), draw.points() + i, &results[i],
-                      TimeBudget(0.0));
-      }
-      rounds.push_back(end);
-      begin = end;
-    }
   }
 
   std::vector<std::pair<std::size_t, std::uint32_t>> points() const
@@ -120,26 +54,11 @@ struct Drawing
 
   ThreadTeam team;
   PreparedViews views;
-  SampleDraw draw;
-  std::vector<SampleResult> results;
-  std::vector<std::size_t> rounds;  // samples drawn after each
+  SampleLoop loop;
+  const SampleDraw& draw = loop.draw();
+  const std::vector<SampleResult>& results = loop.results();
+  const std::vector<std::size_t>& rounds = loop.draw().roundEnds();  // samples drawn after each
 };
-
-void expectSame(const Localization& a, const Localization& b, const std::string& what)
-{
-  EXPECT_EQ(a.counts, b.counts) << what;
-  EXPECT_EQ(a.sampled, b.sampled) << what;
-  ASSERT_EQ(a.shells.size(), b.shells.size()) << what;
-  for (std::size_t i = 0; i < a.shells.size(); ++i) {
-    ASSERT_TRUE(same(a.shells[i], b.shells[i])) << what << ", shell " << i;
-  }
-  ASSERT_EQ(a.handles.size(), b.handles.size()) << what;
-  for (std::size_t i = 0; i < a.handles.size(); ++i) {
-    EXPECT_EQ(a.handles[i].shells, b.handles[i].shells) << what;
-    EXPECT_EQ(a.handles[i].polyline, b.handles[i].polyline) << what;
-    EXPECT_EQ(a.handles[i].score, b.handles[i].score) << what;
-  }
-}
 
 void expectSums(const Localization& result, const Config& config, const std::string& what)
 {
@@ -194,7 +113,7 @@ TEST(ImportanceSampling, TakesTheFirstShareInTheFirstRoundAndAllInThree)
   EXPECT_EQ(Drawing(table(), config).rounds, std::vector<std::size_t>{1000});
 }
 
-TEST(ImportanceSampling, SwitchedOffDrawsWhatSamplePointDraws)
+TEST(ImportanceSampling, SwitchedOffDrawsFromStrata)
 {
   for (const bool screen : {false, true}) {
     Config config;
@@ -203,8 +122,8 @@ TEST(ImportanceSampling, SwitchedOffDrawsWhatSamplePointDraws)
     config.sampling.samples = 500;
     const Drawing drawing(table(), config);
     for (std::size_t i = 0; i < 500; ++i) {
-      ASSERT_EQ(drawing.draw.points()[i].point,
-                samplePoint(drawing.views[0].points(), drawing.views[0].screen.points(), config.sampling, i));
+      ASSERT_EQ(drawing.draw.points()[i].point, drawStratified(drawing.views[0].drawablePoints(),
+                                                               drawing.views[0].screen.points(), config.sampling, i));
     }
   }
 }
@@ -276,7 +195,7 @@ TEST(ImportanceSampling, DrawsMeasuredPointsOfAllViews)
   std::size_t begin = 0;
   for (const std::size_t end : drawing.rounds) {
     const auto of_first = std::count_if(drawing.draw.points() + begin, drawing.draw.points() + end,
-                                        [](const SamplePoint& sample) { return sample.view == 0; });
+                                        [](const MeasuredPoint& sample) { return sample.view == 0; });
     const double share = static_cast<double>(of_first) / static_cast<double>(end - begin);
     EXPECT_GT(share, 0.25) << "samples " << begin << " to " << end;
     EXPECT_LT(share, 0.75) << "samples " << begin << " to " << end;
@@ -332,102 +251,10 @@ TEST(ImportanceSampling, StaysNearTheSamplesThatItStartsFrom)
   for (std::size_t i = 200; i < 400; ++i) {
     const auto end = drawing.draw.points() + (i < drawing.rounds[1] ? 200 : drawing.rounds[1]);
     again += std::any_of(drawing.draw.points(), end,
-                         [&](const SamplePoint& sample) { return sample.point == drawing.draw.points()[i].point; });
+                         [&](const MeasuredPoint& sample) { return sample.point == drawing.draw.points()[i].point; });
   }
   EXPECT_GT(again, 50U);
 }
-
-struct Variation
-{
-  std::string name;
-  Estimator estimator;
-  NormalsMode mode;
-};
-
-class EveryEstimator : public testing::TestWithParam<Variation>
-{
-protected:
-  Config config() const
-  {
-    Config config;
-    config.estimation.estimator = GetParam().estimator;
-    config.estimation.normals_mode = GetParam().mode;
-    config.sampling.samples = 600;
-    return config;
-  }
-};
-
-TEST_P(EveryEstimator, FindsTheSameWithAnyNumberOfThreadsAndInstructionSet)
-{
-  Config config = this->config();
-  config.threads = 1;
-  Localizer reference_localizer(config);
-  const Localization of_image = reference_localizer.localize(table());
-  Localization of_views;
-  reference_localizer.localize(tableFromTwoSides().posed(), of_views);
-  EXPECT_GT(of_image.shells.size(), 10U);
-  for (const int threads : {1, 2, 4}) {
-    config.threads = threads;
-    Localizer localizer(config);
-    expectSame(localizer.localize(table()), of_image, std::to_string(threads) + " threads");
-    Localization result;
-    localizer.localize(tableFromTwoSides().posed(), result);
-    expectSame(result, of_views, "two views, " + std::to_string(threads) + " threads");
-  }
-  Localizer localizer(config);
-  for (const std::string& name : instructionSets()) {
-    useInstructionSet(name);
-    expectSame(localizer.localize(table()), of_image, name);
-  }
-  useInstructionSet("");
-}
-
-TEST_P(EveryEstimator, DoesNotDependOnCloudsLocalizedBefore)
-{
-  const Cloud other = captureScene("cleaning2", 1).cloud;
-  const Config config = this->config();
-  const Localization fresh = Localizer(config).localize(table());
-  Localizer localizer(config);
-  localizer.localize(other);
-  expectSame(localizer.localize(table()), fresh, "after another cloud");
-  Localization result;
-  localizer.localize(tableFromTwoSides().posed(), result);
-  expectSame(localizer.localize(table()), fresh, "after two views");
-  localizer.localize(Cloud());
-  localizer.localize(cloudOf({{0, 0, 1}, {0, 0.01, 1}}));
-  localizer.localize(table(), result);
-  expectSame(result, fresh, "after clouds of nothing, into a used result");
-  EXPECT_EQ(result.warnings, fresh.warnings);
-}
-
-TEST_P(EveryEstimator, GoesOnWithOtherParametersAsANewOneWould)
-{
-  Config config = this->config(), other = config;
-  other.sampling.samples = 900;
-  other.sampling.importance = false;
-  other.sampling.seed = 3;
-  other.threads = config.threads == 2 ? 1 : 2;
-  other.handles.min_support = 5;
-  other.shell.continue_surfaces = false;
-  Localizer localizer(config);
-  const Localization before = localizer.localize(table());
-  localizer.configure(other);
-  EXPECT_EQ(localizer.config().sampling.samples, 900);
-  expectSame(localizer.localize(table()), Localizer(other).localize(table()), "reconfigured");
-  localizer.configure(config);
-  expectSame(localizer.localize(table()), before, "configured back");
-  Config wrong = other;
-  wrong.hand.capture_radius = -1.0;
-  EXPECT_THROW(localizer.configure(wrong), ParameterError);
-  expectSame(localizer.localize(table()), before, "after a refusal");
-}
-
-INSTANTIATE_TEST_SUITE_P(ImportanceSampling, EveryEstimator,
-                         testing::Values(Variation{"taubin", Estimator::taubin, NormalsMode::exact},
-                                         Variation{"pca", Estimator::pca, NormalsMode::exact},
-                                         Variation{"normals", Estimator::normals, NormalsMode::exact},
-                                         Variation{"sparse_normals", Estimator::normals, NormalsMode::sparse}),
-                         [](const testing::TestParamInfo<Variation>& info) { return info.param.name; });
 
 /// Normals that are estimated round by round are those that are estimated all at once.
 TEST(ImportanceSampling, EstimatesTheNormalsThatEachRoundNeeds)
@@ -444,13 +271,11 @@ TEST(ImportanceSampling, EstimatesTheNormalsThatEachRoundNeeds)
       ThreadTeam team(2);
       PreparedViews at_once;
       at_once.update(clouds, config, Pose::Identity(), team);
-      at_once.estimateNormals(config, by_round.draw.points(), by_round.draw.size(), team);
-      SampleBlock block;
-      std::vector<SampleResult> expected(by_round.draw.size());
-      for (std::size_t i = 0; i < expected.size(); i += SampleBlock::kSamples) {
-        const std::size_t end = std::min(expected.size(), i + SampleBlock::kSamples);
-        block.examine(at_once, config, i, end, by_round.draw.points() + i, &expected[i], TimeBudget(0.0));
-      }
+      SampleLoop loop;
+      loop.examine({at_once, config, team, TimeBudget(0.0), Cancellation()},
+                   {by_round.draw.points(), by_round.draw.points() + by_round.draw.size()});
+      const std::vector<SampleResult>& expected = loop.results();
+      ASSERT_EQ(expected.size(), by_round.results.size());
       ASSERT_EQ(by_round.rounds.size(), 3U);
       for (std::size_t i = 0; i < expected.size(); ++i) {
         ASSERT_EQ(by_round.results[i].outcome, expected[i].outcome) << i;

@@ -333,10 +333,6 @@ TEST(Localizer, WorksOnCloudsWithoutARangeImage)
   Config config;
   config.sampling.samples = 2000;
 
-  Cloud unorganized = frame.cloud;
-  unorganized.width = static_cast<std::uint32_t>(unorganized.size());
-  unorganized.height = 1;
-
   Cloud moved = frame.cloud;  // as by a transformation into the frame of a robot's base
   const Eigen::Isometry3f T =
       Eigen::Translation3f(0.3F, -0.2F, 1.0F) * Eigen::AngleAxisf(2.0F, Eigen::Vector3f::UnitX());
@@ -351,7 +347,8 @@ TEST(Localizer, WorksOnCloudsWithoutARangeImage)
     behind.set(i, frame.cloud.x[i], -frame.cloud.y[i], -frame.cloud.z[i]);
   }
 
-  for (const Cloud* cloud : {&unorganized, &moved, &behind}) {
+  const Cloud without_rows = unorganized(frame.cloud);
+  for (const Cloud* cloud : {&without_rows, &moved, &behind}) {
     const Localization result = Localizer(config).localize(*cloud);
     expectSound(result, "without a range image");
     ASSERT_EQ(result.warnings.size(), 1U);

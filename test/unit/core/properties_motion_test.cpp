@@ -54,9 +54,9 @@ TEST(Properties, MovedViewsMoveTheirShellsAndHandles)
                             Xtion().capture(aside.scene, aside.T_scene_camera, property.seed + 1)};
     const std::vector<PosedCloud> clouds{{&frames[0].cloud, property.view.T_scene_camera},
                                          {&frames[1].cloud, aside.T_scene_camera}};
-    SamplePoints given;
+    MeasuredPoints given;
     for (std::size_t view = 0; view < clouds.size(); ++view) {
-      const SamplePoints more =
+      const MeasuredPoints more =
           samplesOf(somePoints(*clouds[view].cloud, property.config, property.samples, property.random), view);
       given.insert(given.end(), more.begin(), more.end());
     }
@@ -106,8 +106,8 @@ TEST(Properties, MovedPointsMoveTheirShells)
   forEachCase([&](PropertyCase property) {
     const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     std::vector<std::uint32_t> from;
-    const Cloud cloud = unorganized(frame.cloud, from);
-    const SamplePoints given =
+    const Cloud cloud = measuredPointsOf(frame.cloud, from);
+    const MeasuredPoints given =
         samplesOf(placesIn(from, somePoints(frame.cloud, property.config, property.samples, property.random)));
     const Pose T = somePose(property.random);
     const Cloud moved_cloud = moved(cloud, T);
@@ -158,8 +158,8 @@ TEST(Properties, PointsMovedWithoutRoundingMoveTheirShells)
   forEachCase([&](PropertyCase property) {
     const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     std::vector<std::uint32_t> from;
-    const Cloud cloud = onGrid(unorganized(frame.cloud, from));
-    const SamplePoints given =
+    const Cloud cloud = onGrid(measuredPointsOf(frame.cloud, from));
+    const MeasuredPoints given =
         samplesOf(placesIn(from, somePoints(frame.cloud, property.config, property.samples, property.random)));
     Pose T = Pose::Identity();
     for (int axis = 0; axis < 3; ++axis) {

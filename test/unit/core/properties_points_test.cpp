@@ -49,7 +49,7 @@ TEST(Properties, PermutedPointsGiveTheSameShells)
     const std::vector<std::uint32_t> points =
         somePoints(frame.cloud, property.config, property.samples, property.random);
     std::vector<std::uint32_t> from, new_places;
-    const Cloud cloud = unorganized(frame.cloud, from);
+    const Cloud cloud = measuredPointsOf(frame.cloud, from);
     const Cloud reordered = permuted(cloud, property.random, new_places);
     GivenSamples before(alone(cloud), property.config), after(alone(reordered), property.config);
     std::vector<std::uint32_t> given;
@@ -82,8 +82,8 @@ TEST(Properties, PointsFarAwayChangeNothing)
     const std::vector<std::uint32_t> points =
         somePoints(frame.cloud, property.config, property.samples, property.random);
     std::vector<std::uint32_t> from;
-    const Cloud cloud = unorganized(frame.cloud, from);
-    const SamplePoints given = samplesOf(placesIn(from, points));
+    const Cloud cloud = measuredPointsOf(frame.cloud, from);
+    const MeasuredPoints given = samplesOf(placesIn(from, points));
     Cloud more = cloud;
     more.reset(cloud.width + 1000, 1);
     for (std::size_t i = 0; i < more.size(); ++i) {

@@ -22,7 +22,7 @@ TEST(Properties, MoreCaptureRadiusLosesNoShell)
     config.neighborhood.radius = 0.026;
     config.hand.capture_radius = 0.018;
     const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
-    const SamplePoints given = samplesOf(somePoints(frame.cloud, config, property.samples, property.random));
+    const MeasuredPoints given = samplesOf(somePoints(frame.cloud, config, property.samples, property.random));
     std::vector<SampleResult> smaller = GivenSamples(alone(frame.cloud), config).examine(given);
     for (const int steps : {1, 3, 8}) {
       // By whole steps, for a fit anew starts at a whole number of them below the capture radius.

@@ -71,7 +71,7 @@ struct Growth
   std::vector<SampleResult> expected, actual;
   double factor;
 
-  Growth(const Cloud& cloud, const Config& config, const SamplePoints& given, double by) : factor(by)
+  Growth(const Cloud& cloud, const Config& config, const MeasuredPoints& given, double by) : factor(by)
   {
     const Cloud larger = scaled(cloud, factor);
     expected = GivenSamples(alone(cloud), config).examine(given);
@@ -108,7 +108,7 @@ TEST(Properties, AScaledWorldHasScaledShells)
     organized.add(growth.tally(kRounding));
 
     std::vector<std::uint32_t> from;
-    const Cloud cloud = unorganized(frame.cloud, from);
+    const Cloud cloud = measuredPointsOf(frame.cloud, from);
     // A length that is measured goes on by 1 um beyond the last points, at either end, where their spacing is not
     // known.
     Tolerance tolerance = kRounding;

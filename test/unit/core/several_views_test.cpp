@@ -145,9 +145,7 @@ TEST(SeveralViews, SampleAllCloudsAndCountTheirPointsOneAfterTheOther)
 TEST(SeveralViews, SampleAlsoThoseThatAreNoRangeImages)
 {
   SeenScene scene(makeScene("table", 1), {0.0, 180.0});
-  Cloud& second = scene.frames[1].cloud;
-  second.width *= second.height;
-  second.height = 1;
+  scene.frames[1].cloud = unorganized(scene.frames[1].cloud);
   const Localization result = localizeViews(Config(), scene.views(2));
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_EQ(result.warnings[0].rfind("view 2: ", 0), 0U) << result.warnings[0];

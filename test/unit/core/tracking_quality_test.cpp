@@ -230,7 +230,7 @@ Quality watch(const NamedScene& scene, std::uint64_t seed, std::size_t frames, c
     const std::vector<Affordance> affordances = groundTruth(moved, frame, xtion.model()).affordances;
     localizer.localize(frame.cloud, localization);
     for (GraspHandle& handle : localization.handles) {
-      transform(moved.T_scene_camera, handle);
+      handle = transformed(std::move(handle), moved.T_scene_camera);
     }
     observer.observe(affordances, tracker.update(localization.handles, time), i);
   }

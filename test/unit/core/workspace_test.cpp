@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace grasp_affordances::test
@@ -102,6 +103,22 @@ TEST(Workspace, WithoutAPointIsSaid)
   EXPECT_TRUE(none.shells.empty());
   ASSERT_EQ(none.warnings.size(), 1U);
   EXPECT_NE(none.warnings[0].find("workspace"), std::string::npos);
+}
+
+TEST(Workspace, EachSideAloneIsALimit)
+{
+  EXPECT_FALSE(WorkspaceConfig().isLimit());
+  const double limit = std::nextafter(WorkspaceConfig::kNoLimit, 0.0);
+  for (double WorkspaceConfig::*min : {&WorkspaceConfig::min_x, &WorkspaceConfig::min_y, &WorkspaceConfig::min_z}) {
+    WorkspaceConfig box;
+    box.*min = -limit;
+    EXPECT_TRUE(box.isLimit());
+  }
+  for (double WorkspaceConfig::*max : {&WorkspaceConfig::max_x, &WorkspaceConfig::max_y, &WorkspaceConfig::max_z}) {
+    WorkspaceConfig box;
+    box.*max = limit;
+    EXPECT_TRUE(box.isLimit());
+  }
 }
 
 TEST(Workspace, AnEmptyBoxIsRefused)

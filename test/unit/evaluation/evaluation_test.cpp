@@ -99,13 +99,6 @@ Cloud makeOrganizedCloud(Random& random)
   return cloud;
 }
 
-Cloud unorganized(Cloud cloud)
-{
-  cloud.width = static_cast<std::uint32_t>(cloud.size());
-  cloud.height = 1;
-  return cloud;
-}
-
 TEST(Judge, BoundedSearchOfAnOrganizedCloudAgreesWithLookingAtEachPoint)
 {
   Random random(1);

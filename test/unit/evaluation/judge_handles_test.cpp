@@ -1,9 +1,10 @@
 // How handles are judged and compared with the truth.
+#include "core/result/polyline.h"
 #include "evaluation/handle_errors.h"
 #include "evaluation/judge.h"
 #include "evaluation/labelled_cloud.h"
-#include "evaluation/polyline.h"
 #include "support/points.h"
+#include "support/polylines.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -37,17 +38,6 @@ GraspHandle straightHandle()
   return handleAlong({{0.0, 0.0, -0.02}, {0.0, 0.0, 0.02}}, 0.02);
 }
 
-/// Half a circle about z in the xy plane, from +x over +y to -x.
-Polyline halfCircle(double radius, int segments)
-{
-  Polyline points;
-  for (int i = 0; i <= segments; ++i) {
-    const double angle = M_PI * i / segments;
-    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-  }
-  return points;
-}
-
 Verdict verdictOn(const GraspHandle& handle, const Points& points, const Labels& labels)
 {
   const Cloud cloud = cloudOf(points);
@@ -62,50 +52,6 @@ Verdict verdictOn(const Labels& labels)
     points.emplace_back(0.001 * static_cast<double>(i), 0.01, 0.0);
   }
   return verdictOn(straightHandle(), points, labels);
-}
-
-TEST(Polyline, NearestPlaceIsThatOfAllPlacesTriedOneByOne)
-{
-  Random random(1);
-  const Polyline line{{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.1, 0.05, 0.02}, {0.0, 0.1, 0.1}};
-  for (int i = 0; i < 200; ++i) {
-    const Eigen::Vector3d point(random.uniform(-0.1, 0.2), random.uniform(-0.1, 0.2), random.uniform(-0.1, 0.2));
-    double least = std::numeric_limits<double>::infinity();
-    constexpr int kSteps = 1000;
-    for (std::size_t segment = 0; segment + 1 < line.size(); ++segment) {
-      for (int step = 0; step <= kSteps; ++step) {
-        const Eigen::Vector3d place = line[segment] + (line[segment + 1] - line[segment]) * step / kSteps;
-        least = std::min(least, (point - place).norm());
-      }
-    }
-    const PolylinePlace place = nearestPlace(line, point);
-    ASSERT_NEAR(place.offset.norm(), least, 1e-4) << i;
-    ASSERT_LE(place.offset.norm(), least + 1e-12) << i;
-    const Eigen::Vector3d there =
-        line[place.segment] + place.share * (line[place.segment + 1] - line[place.segment]) + place.offset;
-    ASSERT_TRUE(there.isApprox(point, 1e-9)) << i;
-  }
-}
-
-TEST(Polyline, TangentIsThatOfTheCircleThatItFollows)
-{
-  constexpr int kSegments = 24;  // of 7.5 degrees
-  const Polyline line = halfCircle(0.03, kSegments);
-  for (double angle = 10.0; angle <= 170.0; angle += 1.0) {
-    const Eigen::Vector3d outwards(std::cos(angle * kDegree), std::sin(angle * kDegree), 0.0);
-    const Eigen::Vector3d tangent(-outwards.y(), outwards.x(), 0.0);
-    const Eigen::Vector3d found = tangentAt(line, nearestPlace(line, 0.03 * outwards));
-    EXPECT_LT(std::acos(std::min(1.0, found.dot(tangent))), 0.05 * kDegree) << "at " << angle << " degrees";
-  }
-}
-
-TEST(Polyline, DistanceAcrossLeavesOutWhatIsBeyondAnEnd)
-{
-  const Polyline line{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.1}};
-  const auto across = [&](const Eigen::Vector3d& point) { return distanceAcross(line, nearestPlace(line, point)); };
-  EXPECT_DOUBLE_EQ(across({0.003, 0.004, 0.05}), 0.005);
-  EXPECT_DOUBLE_EQ(across({0.003, 0.004, 0.15}), 0.005);
-  EXPECT_DOUBLE_EQ(across({0.003, 0.004, -0.07}), 0.005);
 }
 
 TEST(JudgeHandles, ByTheSameRuleAsShells)
@@ -167,9 +113,7 @@ TEST(JudgeHandles, BoundedSearchAgreesWithLookingAtEachPointAndWithShells)
       labels[i] = random.uniform(0.0, 1.0) < 0.5 ? 0 : static_cast<std::uint32_t>(random.uniform(1.0, 4.0));
     }
   }
-  Cloud points = cloud;
-  points.width = static_cast<std::uint32_t>(cloud.size());
-  points.height = 1;
+  const Cloud points = unorganized(cloud);
   const Judge bounded(cloud, labels), brute(points, labels);
   int right = 0, wrong = 0;
   for (int i = 0; i < 300; ++i) {

@@ -2,6 +2,7 @@
 #include "rendering/label_place.h"
 #include "rendering/picture.h"
 #include "rendering/picture_camera.h"
+#include "support/points.h"
 #include "support/test_with_folder.h"
 
 #include <cairo.h>
@@ -34,13 +35,6 @@ Cloud makeWall()
       cloud.set(i, (u - k.cx) / k.fx * kDepth, (v - k.cy) / k.fy * kDepth, kDepth);
     }
   }
-  return cloud;
-}
-
-Cloud unorganized(Cloud cloud)
-{
-  cloud.width = static_cast<std::uint32_t>(cloud.size());
-  cloud.height = 1;
   return cloud;
 }
 
@@ -118,7 +112,7 @@ TEST_F(RenderingTest, cameraOfAnOrganizedCloudIsItsSensor)
 TEST_F(RenderingTest, cameraOfAnUnorganizedCloudStandsAtTheSensorAndTakesThePointsIn)
 {
   for (const Eigen::Vector3f& offset : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(3, -2, 1)}) {
-    Cloud cloud = unorganized(makeWall());
+    Cloud cloud = test::unorganized(makeWall());
     for (std::size_t i = 0; i < cloud.size(); ++i) {  // turned to look along x
       const Eigen::Vector3f p = cloud.point(i);
       cloud.set(i, p.z() + offset.x(), -p.x() + offset.y(), -p.y() + offset.z());
@@ -144,7 +138,7 @@ TEST_F(RenderingTest, cameraOfAnUnorganizedCloudStandsAtTheSensorAndTakesThePoin
 
 TEST_F(RenderingTest, drawsAShellWhereItProjects)
 {
-  for (const Cloud& cloud : {makeWall(), unorganized(makeWall())}) {
+  for (const Cloud& cloud : {makeWall(), test::unorganized(makeWall())}) {
     const Shell shell = makeShell();
     Picture picture(cloud);
     picture.drawShell(shell, kRed);

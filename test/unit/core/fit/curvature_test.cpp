@@ -155,7 +155,7 @@ TEST(MedianCurvature, OfACylinderIsItsInverseRadiusAboutItsAxis)
       const CylinderView view = viewCylinder(radius, noise, false, random);
       const auto fit = fitTaubin(view.neighborhood);
       ASSERT_TRUE(fit);
-      const auto curvature = medianCurvature(fit->quadric, view.neighborhood, kSensor, kPoints, 1, scratch);
+      const auto curvature = medianCurvature(fit->quadric, view.neighborhood, {kSensor}, {kPoints, 1}, scratch);
       ASSERT_TRUE(curvature);
       // A parabola k x^2 / 2 through n points with noise s over [-w, w] knows k to s / w^2 sqrt(45 / n); a conic, whose
       // term in x^4 is as free and correlated with x^2 by 0.958, to 3.5 times that. A twist t x y over [-w, w] x [-l,
@@ -180,7 +180,7 @@ TEST(MedianCurvature, TellsTheInsideOfACylinderFromItsOutside)
     const CylinderView view = viewCylinder(0.03, noise, true, random);
     const auto fit = fitTaubin(view.neighborhood);
     ASSERT_TRUE(fit);
-    const auto curvature = medianCurvature(fit->quadric, view.neighborhood, kSensor, kPoints, 1, scratch);
+    const auto curvature = medianCurvature(fit->quadric, view.neighborhood, {kSensor}, {kPoints, 1}, scratch);
     ASSERT_TRUE(curvature);
     EXPECT_TRUE(curvature->concave);
     EXPECT_NEAR(curvature->median, 1 / 0.03, 0.1 / 0.03);
@@ -200,7 +200,7 @@ TEST(MedianCurvature, OfANoisyPlaneIsLow)
     const Neighborhood neighborhood = neighborhoodOf(points, {0, 0, 0.8}, 0.026);
     const auto fit = fitTaubin(neighborhood);
     ASSERT_TRUE(fit) << seed;
-    const auto curvature = medianCurvature(fit->quadric, neighborhood, kSensor, kPoints, seed, scratch);
+    const auto curvature = medianCurvature(fit->quadric, neighborhood, {kSensor}, {kPoints, seed}, scratch);
     ASSERT_TRUE(curvature) << seed;
     medians.push_back(curvature->median);
   }
@@ -218,9 +218,9 @@ TEST(MedianCurvature, IsEmptyWhereNoPointStaysInTheNeighborhood)
   far_plane.origin = neighborhood.center.cast<double>();
   far_plane.scale = neighborhood.radius;
   CurvatureScratch scratch;
-  EXPECT_FALSE(medianCurvature(far_plane, neighborhood, kSensor, kPoints, 0, scratch));
+  EXPECT_FALSE(medianCurvature(far_plane, neighborhood, {kSensor}, {kPoints, 0}, scratch));
   const Quadric nothing;  // without gradient
-  EXPECT_FALSE(medianCurvature(nothing, neighborhood, kSensor, kPoints, 0, scratch));
+  EXPECT_FALSE(medianCurvature(nothing, neighborhood, {kSensor}, {kPoints, 0}, scratch));
 }
 
 }  // namespace

@@ -87,15 +87,13 @@ std::vector<bool> sparseNormals(const Cloud& cloud)
 
 TEST(SurfaceNormals, AreSparseInRowsAndColumns)
 {
-  Cloud cloud = sheet();
+  const Cloud cloud = sheet();
   const auto of_image = sparseNormals(cloud);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const bool on_grid = i % kWidth % 4 == 0 && i / kWidth % 4 == 0;
     EXPECT_EQ(of_image[i], on_grid && cloud.measured(i)) << i;
   }
-  cloud.width = kWidth * kHeight;
-  cloud.height = 1;
-  const auto of_list = sparseNormals(cloud);
+  const auto of_list = sparseNormals(unorganized(cloud));
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     EXPECT_EQ(of_list[i], i % 16 == 0 && cloud.measured(i)) << i;
   }

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grasp_affordances::test
@@ -87,6 +90,53 @@ TEST(Explanation, BlamesTheTimeBudgetEvenWhereShellsWereFound)
   expectSentence(explainNothing(result, Config()), {"handles/min_support"});
 }
 
+TEST(Explanation, NamesEachReasonWhyNothingWasSampled)
+{
+  const std::pair<NothingSampled, std::string> cases[] = {
+      {NothingSampled::no_cloud, "there was no cloud to draw samples from"},
+      {NothingSampled::empty_cloud, "check the sensor"},
+      {NothingSampled::nothing_measured, "check the sensor"},
+      {NothingSampled::points_coincide, "check the sensor"},
+      {NothingSampled::outside_workspace, "workspace/min_x to workspace/max_z"}};
+  ASSERT_EQ(std::size(cases), kNothingSampledReasons);
+  for (const auto& [reason, part] : cases) {
+    Localization result;
+    result.nothing_sampled = reason;
+    result.warnings = {"a text that mentions nothing to localize: within the workspace"};
+    expectSentence(explainNothing(result, Config()), {describe(reason), part});
+  }
+}
+
+/// Of several clouds that cannot be sampled, the one that came nearest to it tells the reason.
+TEST(Explanation, OfSeveralCloudsIsTheReasonOfTheOneNearestToASample)
+{
+  Cloud empty, unmeasured, coincident;
+  unmeasured.reset(64, 48);
+  coincident.reset(64, 48);
+  for (std::size_t i = 0; i < coincident.size(); ++i) {
+    coincident.set(i, 0.1F, 0.2F, 1.0F);
+  }
+  Config config;
+  config.workspace.min_x = 50.0;
+  Localizer localizer(config);
+  const auto reason = [&](const std::vector<const Cloud*>& clouds) {
+    std::vector<PosedCloud> views;
+    for (const Cloud* cloud : clouds) {
+      views.push_back({cloud, Eigen::Isometry3d::Identity()});
+    }
+    Localization result;
+    localizer.localize(views, result);
+    EXPECT_EQ(result.sampled, 0U);
+    return result.nothing_sampled;
+  };
+  const Cloud table = captureScene("table", 1).cloud;
+  EXPECT_EQ(reason({}), NothingSampled::no_cloud);
+  EXPECT_EQ(reason({&empty, &empty}), NothingSampled::empty_cloud);
+  EXPECT_EQ(reason({&unmeasured, &empty}), NothingSampled::nothing_measured);
+  EXPECT_EQ(reason({&empty, &coincident, &unmeasured}), NothingSampled::points_coincide);
+  EXPECT_EQ(reason({&coincident, &table}), NothingSampled::outside_workspace);
+}
+
 /// Of clouds that give no sample.
 TEST(Explanation, SaysWhyNothingWasSampled)
 {
@@ -95,9 +145,9 @@ TEST(Explanation, SaysWhyNothingWasSampled)
     return explainNothing(localizer.localize(cloud), localizer.config());
   };
   Cloud cloud;
-  expectSentence(explained(cloud), {"the cloud is empty", "look at the sensor"});
+  expectSentence(explained(cloud), {"the cloud is empty", "check the sensor"});
   cloud.reset(640, 480);
-  expectSentence(explained(cloud), {"all points are NaN, zero or infinite", "look at the sensor"});
+  expectSentence(explained(cloud), {"all points are NaN, zero or infinite", "check the sensor"});
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     cloud.set(i, 0.1F, 0.2F, 1.0F);
   }

@@ -158,10 +158,9 @@ TEST(HandleMarker, AHandClosesAroundTheHandle)
 
 TEST(HandleMarker, NoiseAndMotionOfTheWholeChangeThePoseOnly)
 {
-  GraspHandle moved = bentHandle();
-  transform(Eigen::Translation3d(0.0101, -0.0234, 0.0302) *
-                Eigen::Isometry3d(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX())),
-            moved);
+  GraspHandle moved =
+      transformed(bentHandle(), Eigen::Translation3d(0.0101, -0.0234, 0.0302) *
+                                    Eigen::Isometry3d(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX())));
   moved.length += 0.0001;
   moved.inner_radius += 0.0001;
   InteractiveMarker before = drawn(bentHandle(), false), after = drawn(moved, false);

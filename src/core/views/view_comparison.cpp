@@ -1,4 +1,4 @@
-#include "core/views/view_agreement.h"
+#include "core/views/view_comparison.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -11,16 +11,16 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kCoarsestGate = 0.06;  // m, distance of surfaces beyond which they are not taken for the same
+constexpr double kCoarsestGate = 0.06;  // m, surfaces farther apart are not taken for the same
 constexpr double kFinestGate = 0.01;    // m
-constexpr double kRefinement = 0.88;    // of the gate, from one iteration to the next
-constexpr double kNearGate = 0.02;      // m
-constexpr std::size_t kMinPairs = 100;  // for a step
-constexpr double kMinSupport = 0.2;     // pairs, of the samples of both views
-constexpr double kClearlyMore = 1.1;    // times as many pairs
+constexpr double kRefinement = 0.88;    // ratio of the gates of one iteration and the one before
+constexpr double kNearGate = 0.02;      // m, where a fit begins that stays near the given pose
+constexpr std::size_t kMinPairs = 100;  // fewest pairs for a step
+constexpr double kMinSupport = 0.2;     // fewest pairs of a fit, as a share of the samples of both views
+constexpr double kClearlyMore = 1.1;    // ratio of numbers of pairs
 
-/// Share of the strongest possible constraint below which a direction of motion is left as it is: normals that are off
-/// by 2.5 degrees, as noise makes them, constrain shifts along a plane as much.
+/// Share of the strongest possible constraint. Nothing moves in a direction that is constrained less than that: noise
+/// turns normals by 2.5 degrees, and such normals seem to constrain shifts along a plane as much.
 constexpr double kMinConstraint = 0.002;
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -50,7 +50,8 @@ double ViewAgreement::disagreement(const RangeImage& first, const RangeImage& se
 {
   first_.compute(first);
   second_.compute(second);
-  // From afar a fit may settle somewhere wrong: it has to explain more than one that starts and stays near the claim.
+  // A fit that begins with a wide gate may settle at a wrong pose. It counts only where it has clearly more support
+  // than one that begins, and stays, near the given pose.
   const Fit far = fit(T_first_second, kCoarsestGate), near = fit(T_first_second, kNearGate);
   const Fit& better = far.support > kClearlyMore * near.support ? far : near;
   const double needed = kMinSupport * static_cast<double>(first_.samples().size() + second_.samples().size());
@@ -98,7 +99,7 @@ void ViewAgreement::findPairs(const Eigen::Isometry3d& T_first_second, double ga
   }
 }
 
-/// Weighted by Tukey's biweight and by the inverse of the variance: depth noise grows with the square of depth.
+/// The weight is Tukey's biweight over the variance of the distance: depth noise grows with the square of depth.
 void ViewAgreement::addPair(const SurfaceElement& first, const SurfaceElement& second,
                             const Eigen::Isometry3d& T_first_second, double gate)
 {
@@ -146,6 +147,38 @@ Eigen::Isometry3d ViewAgreement::motionToFit() const
   }
   twist.head<3>() /= radius;
   return rigidMotion(twist, center);
+}
+
+void ViewComparison::compare(const std::vector<ComparedView>& views, ThreadTeam& team)
+{
+  pairs_.resize(views.size() * (views.size() - 1) / 2);
+  auto pair = pairs_.begin();
+  for (std::size_t first = 0; first < views.size(); ++first) {
+    for (std::size_t second = first + 1; second < views.size(); ++second, ++pair) {
+      pair->first = first;
+      pair->second = second;
+    }
+  }
+  team.forEach(pairs_.size(), [&](std::size_t i, std::size_t) {
+    Pair& compared = pairs_[i];
+    const ComparedView &first = views[compared.first], &second = views[compared.second];
+    compared.disagreement = first.image != nullptr && second.image != nullptr
+                                ? compared.agreement.disagreement(*first.image, *second.image,
+                                                                  first.T_common_view.inverse() * second.T_common_view)
+                                : std::numeric_limits<double>::quiet_NaN();
+  });
+  disagreement_ = std::numeric_limits<double>::quiet_NaN();
+  warnings_.clear();
+  for (const Pair& compared : pairs_) {
+    disagreement_ = std::fmax(disagreement_, compared.disagreement);
+    constexpr double kMisplaced = 0.015;  // m; twice what exact poses were seen to cause
+    if (compared.disagreement > kMisplaced) {
+      warnings_.push_back("views " + std::to_string(views[compared.first].number) + " and " +
+                          std::to_string(views[compared.second].number) + " place the same surfaces " +
+                          std::to_string(std::lround(1000.0 * compared.disagreement)) +
+                          " mm apart: their poses may be wrong");
+    }
+  }
 }
 
 }  // namespace grasp_affordances

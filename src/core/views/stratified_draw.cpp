@@ -1,12 +1,12 @@
-#include "core/views/sampling.h"
+#include "core/views/stratified_draw.h"
 
 #include "core/parallel/random.h"
 
 namespace grasp_affordances
 {
 
-std::uint32_t samplePoint(const std::vector<std::uint32_t>& measured, const std::vector<std::uint32_t>& candidates,
-                          const SamplingConfig& config, std::uint64_t i)
+std::uint32_t drawStratified(const std::vector<std::uint32_t>& measured, const std::vector<std::uint32_t>& candidates,
+                             const SamplingConfig& config, std::uint64_t i)
 {
   const std::uint64_t bits = randomBits(config.seed, i);
   const auto samples = static_cast<std::uint64_t>(config.samples);

@@ -2,7 +2,7 @@
 
 #include "grasp_affordances/LocalizeNext.h"
 #include "grasp_affordances/RegionOfInterest.h"
-#include "nodelets/localizer/localization_outputs.h"
+#include "nodelets/localizer/localization_publishers.h"
 #include "nodelets/roscpp/service_thread.h"
 
 #include <ros/node_handle.h>
@@ -24,16 +24,16 @@ namespace grasp_affordances
 ///
 /// The call runs in a thread of its own; arrives() may come from any thread; take(), answer() and fail() from one: the
 /// worker's.
-class NextCloud
+class TriggerService
 {
 public:
-  using Clock = LocalizationOutputs::Clock;
+  using Clock = LocalizationPublishers::Clock;
 
-  ~NextCloud() { close(); }
+  ~TriggerService() { close(); }
 
   /// @param awaited  what a call waits for, in words
   /// @param demand   is told whether a call needs clouds to come, and returns why they cannot, see
-  /// LocalizationOutputs::demand()
+  /// InputDemand::demand()
   void advertise(const ros::NodeHandle& private_node_handle, const std::string& awaited,
                  std::function<std::string(bool)> demand);
 
@@ -47,7 +47,7 @@ public:
   std::optional<RegionOfInterest> take(Clock::time_point arrival);
 
   /// Answers the call that was taken; without one nothing happens.
-  void answer(const LocalizationOutputs::Messages& messages);
+  void answer(const LocalizationPublishers::Messages& messages);
   void fail(const std::string& reason);
 
 private:

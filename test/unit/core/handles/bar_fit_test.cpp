@@ -1,4 +1,4 @@
-#include "core/handles/cylinder_fit.h"
+#include "core/handles/bar_fit.h"
 
 #include "core/fit/circle.h"
 #include "support/points.h"

@@ -1,4 +1,4 @@
-#include "core/views/view_agreement.h"
+#include "core/views/view_comparison.h"
 
 #include "simulation/camera_orbit.h"
 #include "simulation/placement.h"
@@ -75,6 +75,12 @@ public:
   {
     ViewAgreement agreement;
     return disagreement(agreement, error);
+  }
+
+  /// The same for ViewComparison, which is to call the views 2 and 5.
+  std::vector<ComparedView> compared(const Eigen::Isometry3d& error = Eigen::Isometry3d::Identity()) const
+  {
+    return {{2, &*images_[0], first_.T_scene_camera}, {5, &*images_[1], error * second_.T_scene_camera}};
   }
 
   /// About an axis through a point that both cameras have in front of them.
@@ -171,6 +177,41 @@ TEST(ViewAgreementTest, dependsOnTheViewsAlone)
   others.disagreement(agreement);
   EXPECT_EQ(views.disagreement(agreement, at(0.02, 0, 0)), expected);
   EXPECT_EQ(views.disagreement(agreement, at(0.02, 0, 0)), expected);
+}
+
+TEST(ViewComparisonTest, warnsOfPairsWhosePosesAreWrong)
+{
+  const TwoViews views(boxesOnPlane(), 35 * kDegree);
+  const Eigen::Isometry3d error = at(0.03, 0, 0);
+  ThreadTeam team(2);
+  ViewComparison comparison;
+  comparison.compare(views.compared(error), team);
+  EXPECT_NEAR(comparison.disagreement(), views.disagreement(error), 1e-6);
+  ASSERT_EQ(comparison.warnings().size(), 1U);
+  EXPECT_EQ(comparison.warnings()[0].rfind("views 2 and 5 place the same surfaces ", 0), 0U)
+      << comparison.warnings()[0];
+
+  comparison.compare(views.compared(), team);
+  EXPECT_LT(comparison.disagreement(), 0.005);
+  EXPECT_TRUE(comparison.warnings().empty()) << "of the views before";
+}
+
+TEST(ViewComparisonTest, leavesOutViewsWithoutARangeImage)
+{
+  const TwoViews views(boxesOnPlane(), 35 * kDegree);
+  ThreadTeam team(1);
+  ViewComparison comparison;
+  std::vector<ComparedView> compared = views.compared();
+  comparison.compare(compared, team);
+  const double expected = comparison.disagreement();
+  compared.insert(compared.begin(), {1, nullptr, Eigen::Isometry3d::Identity()});
+  comparison.compare(compared, team);
+  EXPECT_EQ(comparison.disagreement(), expected);
+  compared.pop_back();
+  comparison.compare(compared, team);
+  EXPECT_TRUE(std::isnan(comparison.disagreement()));
+  comparison.compare({}, team);
+  EXPECT_TRUE(std::isnan(comparison.disagreement()));
 }
 
 /// The sensor's noise, objects of which the views show different sides, and little else that two views share.

@@ -1,4 +1,4 @@
-#include "nodelets/localizer/next_cloud.h"
+#include "nodelets/localizer/trigger_service.h"
 
 #include "nodelets/messages/region_of_interest.h"
 
@@ -34,16 +34,16 @@ std::string refusal(double timeout)
 
 }  // namespace
 
-void NextCloud::advertise(const ros::NodeHandle& private_node_handle, const std::string& awaited,
-                          std::function<std::string(bool)> demand)
+void TriggerService::advertise(const ros::NodeHandle& private_node_handle, const std::string& awaited,
+                               std::function<std::string(bool)> demand)
 {
   awaited_ = awaited;
   demand_ = std::move(demand);
-  server_ = thread_.nodeHandle(private_node_handle).advertiseService("trigger", &NextCloud::call, this);
+  server_ = thread_.nodeHandle(private_node_handle).advertiseService("trigger", &TriggerService::call, this);
   thread_.start();
 }
 
-void NextCloud::close()
+void TriggerService::close()
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -54,7 +54,7 @@ void NextCloud::close()
   server_.shutdown();
 }
 
-bool NextCloud::arrives(Clock::time_point arrival)
+bool TriggerService::arrives(Clock::time_point arrival)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (state_ != State::waiting) {
@@ -65,7 +65,7 @@ bool NextCloud::arrives(Clock::time_point arrival)
   return true;
 }
 
-std::optional<RegionOfInterest> NextCloud::take(Clock::time_point arrival)
+std::optional<RegionOfInterest> TriggerService::take(Clock::time_point arrival)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (state_ != State::arrived || arrival < arrival_) {
@@ -75,7 +75,7 @@ std::optional<RegionOfInterest> NextCloud::take(Clock::time_point arrival)
   return region_;
 }
 
-void NextCloud::answer(const LocalizationOutputs::Messages& messages)
+void TriggerService::answer(const LocalizationPublishers::Messages& messages)
 {
   LocalizeNext::Response response;
   response.success = true;
@@ -86,12 +86,12 @@ void NextCloud::answer(const LocalizationOutputs::Messages& messages)
   finish(std::move(response));
 }
 
-void NextCloud::fail(const std::string& reason)
+void TriggerService::fail(const std::string& reason)
 {
   finish(failure(reason));
 }
 
-void NextCloud::finish(LocalizeNext::Response response)
+void TriggerService::finish(LocalizeNext::Response response)
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -104,7 +104,7 @@ void NextCloud::finish(LocalizeNext::Response response)
   changed_.notify_all();
 }
 
-bool NextCloud::call(LocalizeNext::Request& request, LocalizeNext::Response& response)
+bool TriggerService::call(LocalizeNext::Request& request, LocalizeNext::Response& response)
 {
   if (!(request.timeout >= 0.0 && request.timeout <= kLongestTimeout)) {
     response = failure(refusal(request.timeout));
@@ -120,7 +120,7 @@ bool NextCloud::call(LocalizeNext::Request& request, LocalizeNext::Response& res
   return true;
 }
 
-LocalizeNext::Response NextCloud::waitForAnswer(const RegionOfInterest& region, double timeout)
+LocalizeNext::Response TriggerService::waitForAnswer(const RegionOfInterest& region, double timeout)
 {
   const auto deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));

@@ -1,7 +1,8 @@
-#include "core/handles/cylinder_fit.h"
+#include "core/handles/bar_fit.h"
+
+#include "core/result/axis_frame.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +12,11 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr int kParameters = 6;  // place across the axis, tilt about it, radius, taper
+constexpr int kParameters = 6;  // two of the place across the axis, two of the tilt, radius, taper
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Normal = Eigen::Matrix<double, kParameters, kParameters>;
 
-/// Tukey's biweight: nothing beyond a few standard deviations counts.
+/// Tukey's biweight: residuals beyond a few standard deviations have no weight.
 double weightOf(double residual, double noise)
 {
   const double ratio = residual / (4.685 * noise);
@@ -28,7 +29,7 @@ double weightOf(double residual, double noise)
 std::optional<FittedBar> fitBar(const std::vector<Eigen::Vector3d>& points, const FittedBar& start,
                                 const BarPrior& prior, double noise)
 {
-  const Eigen::Vector3d first = start.axis.unitOrthogonal(), second = start.axis.cross(first);
+  const auto [first, second] = acrossAxis(start.axis);
   Parameters deviations;
   deviations << prior.place, prior.place, prior.tilt, prior.tilt, prior.radius, prior.taper;
   const Parameters prior_weights = (noise / deviations.array()).square();
@@ -37,7 +38,7 @@ std::optional<FittedBar> fitBar(const std::vector<Eigen::Vector3d>& points, cons
   constexpr int kSteps = 8;
   constexpr double kConverged = 1e-6;  // m
   for (int step = 0; step < kSteps; ++step) {
-    // Coarse at first: what is far off may come near.
+    // Wide at first, so that points count that are near the bar only after some steps.
     const double spread = noise * std::max(1.0, 4.0 - step);
     Normal products = prior_weights.asDiagonal();
     Parameters residuals = -(prior_weights.array() * change.array()).matrix();

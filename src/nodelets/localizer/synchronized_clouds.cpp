@@ -1,0 +1,127 @@
+#include "nodelets/localizer/synchronized_clouds.h"
+
+#include "grasp_affordances/point_cloud2.h"
+#include "nodelets/localizer/input_topic.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace grasp_affordances
+{
+namespace
+{
+
+constexpr double kSilence = 5.0;  // s of wall-clock time without a set of clouds, before the node warns
+
+}  // namespace
+
+SynchronizedClouds::SynchronizedClouds(const ros::NodeHandle& node_handle, const std::string& name,
+                                       const MultiCameraParameters& parameters)
+    : name_(name),
+      target_frame_(parameters.node.target_frame),
+      sync_slop_(parameters.sync_slop),
+      node_handle_(node_handle),
+      synchronizer_(parameters.views, parameters.sync_slop, [this](const CloudSynchronizer::Set& clouds) {
+        any_set_ = true;
+        receiver_.receive(clouds);
+      })
+{
+  for (std::uint32_t i = 1; i <= parameters.views; ++i) {
+    View& view = views_.emplace_back();
+    view.points_topic = inputTopic(node_handle, name, "points_" + std::to_string(i));
+    view.camera_info_topic = inputTopic(node_handle, name, "camera_info_" + std::to_string(i));
+  }
+}
+
+void SynchronizedClouds::subscribe(const Receiver& receiver)
+{
+  receiver_ = receiver;
+  synchronizer_.restart();
+  any_set_ = false;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    views_[i].newest.reset();
+    views_[i].camera_info.subscribe(node_handle_, views_[i].camera_info_topic);
+    views_[i].points = node_handle_.subscribe<sensor_msgs::PointCloud2>(
+        views_[i].points_topic, kCloudQueue,
+        gate_.guarded([this, i](const sensor_msgs::PointCloud2ConstPtr& message) { receive(i, message); }));
+  }
+  silence_ = node_handle_.createWallTimer(ros::WallDuration(kSilence),
+                                          [this](const ros::WallTimerEvent&) { complainOfSilence(); });
+}
+
+void SynchronizedClouds::unsubscribe()
+{
+  silence_.stop();
+  for (View& view : views_) {
+    view.points.shutdown();
+    view.camera_info.unsubscribe();
+  }
+}
+
+void SynchronizedClouds::close()
+{
+  gate_.close();
+}
+
+void SynchronizedClouds::receive(std::size_t view, const sensor_msgs::PointCloud2ConstPtr& message)
+{
+  if (views_[view].time_jumps.wentBack(message->header.stamp)) {
+    startAgain(message->header.stamp);
+  }
+  views_[view].newest = message;
+  synchronizer_.add(view, message);
+}
+
+/// Once for all cameras: the first one whose time goes back speaks for the others.
+void SynchronizedClouds::startAgain(const ros::Time& stamp)
+{
+  for (View& view : views_) {
+    view.time_jumps = TimeJumps();
+  }
+  synchronizer_.restart();
+  receiver_.time_is_back(stamp);
+}
+
+void SynchronizedClouds::complainOfSilence()
+{
+  std::string silent;
+  ros::Time earliest = ros::TIME_MAX, latest;
+  for (View& view : views_) {
+    if (view.newest) {
+      earliest = std::min(earliest, view.newest->header.stamp);
+      latest = std::max(latest, view.newest->header.stamp);
+    } else {
+      silent += (silent.empty() ? "" : ", ") + view.points_topic;
+    }
+    view.newest.reset();
+  }
+  if (!silent.empty()) {
+    ROS_WARN_STREAM_NAMED(name_, "nothing is localized: no clouds arrive on " << silent);
+  } else if (const double difference = latest.toSec() - earliest.toSec(); !any_set_ && difference > sync_slop_) {
+    ROS_WARN_STREAM_NAMED(name_, "nothing is localized: the stamps of the newest clouds differ by "
+                                     << difference << " s, which is more than sync_slop, " << sync_slop_ << " s");
+  }
+  any_set_ = false;
+}
+
+CloudInput::Gathered SynchronizedClouds::gather(const Clouds& messages)
+{
+  Gathered result;
+  result.header.frame_id = target_frame_;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    View& view = views_[i];
+    try {
+      cloudFromPointCloud2(*messages[i], view.cloud);
+    } catch (const CloudError& error) {
+      throw CloudError(view.points_topic + ": " + error.what());
+    }
+    view.cloud.intrinsics = view.camera_info.intrinsics(view.cloud, name_);
+    result.clouds.push_back(&view.cloud);
+    result.header.stamp = std::max(result.header.stamp, messages[i]->header.stamp);
+  }
+  return result;
+}
+
+}  // namespace grasp_affordances
