@@ -26,7 +26,7 @@ namespace
 {
 
 constexpr std::int64_t kMaxHeaderSize = 65536;  // bytes; PCL writes a few hundred
-const char* const kPadding = "_";               // name of fields that hold nothing
+const char* const kPadding = "_";               // name of padding fields
 
 using Words = std::vector<std::string>;
 
@@ -41,16 +41,16 @@ struct Header
 {
   std::vector<pcl::PCLPointField> fields;
   std::uint64_t point_step = 0;        // bytes
-  std::uint64_t values_per_point = 0;  // numbers in a line of an ascii file
+  std::uint64_t values_per_point = 0;  // numbers per line of an ascii file
   std::uint64_t width = 0;
   std::uint64_t height = 0;
   SensorPose viewpoint;
   Encoding encoding = Encoding::ascii;
-  std::size_t size = 0;  // bytes of the header itself
+  std::size_t size = 0;  // bytes of the header text
   std::uint64_t points() const { return width * height; }
 };
 
-/// Keeps PCL's own messages off stderr.
+/// Suppresses PCL's own messages on stderr.
 class SilentPcl
 {
 public:
@@ -86,7 +86,7 @@ std::int64_t parseInteger(const std::string& key, const std::string& word, std::
   return value;
 }
 
-/// The header's entries by key, up to and with DATA.
+/// The entries of the header by key, up to and including DATA.
 class Entries
 {
 public:
@@ -150,7 +150,7 @@ private:
   std::string last_;
 };
 
-/// Values of SIZE, TYPE or COUNT: one per field. Files of old versions leave the line out.
+/// Values of SIZE, TYPE or COUNT, one per field. Files of old versions do not have the line.
 Words perField(const Entries& entries, const std::string& key, std::size_t fields, const char* default_value)
 {
   if (!entries.has(key)) {
@@ -171,21 +171,21 @@ void parseFields(const Entries& entries, Header& header)
     throw CloudError("PCD header: FIELDS names no field");
   }
   if (entries.has("SIZE") != entries.has("TYPE")) {
-    throw CloudError("PCD header: SIZE and TYPE are of use together only");
+    throw CloudError("PCD header: SIZE and TYPE must both be given or both be left out");
   }
   const Words sizes = perField(entries, "SIZE", names.size(), "4");
   const Words types = perField(entries, "TYPE", names.size(), "F");
   const Words counts = perField(entries, "COUNT", names.size(), "1");
   std::int64_t offset = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    // PCL writes padding that steps backwards before a field whose offset is less than that of the one before it.
+    // If a field's offset is less than that of the field before it, PCL writes padding of negative size between them.
     const bool may_step_back = names[i] == kPadding && header.encoding == Encoding::binary;
     const std::int64_t count = parseInteger("COUNT", counts[i], may_step_back ? -kMaxHeaderSize : 1);
     const std::int64_t size = parseInteger("SIZE", sizes[i]);
     const int datatype = size > 8 || types[i].size() != 1 ? -1 : pcl::getFieldType(static_cast<int>(size), types[i][0]);
     if (datatype < 0) {
       throw CloudError("PCD header: field " + names[i] + " has SIZE " + sizes[i] + " and TYPE " + types[i] +
-                       ", which is no type of PCL's");
+                       ", which is not a type of PCL");
     }
     pcl::PCLPointField field;
     field.name = names[i];
@@ -259,7 +259,7 @@ Header readHeader(std::istream& file)
   return header;
 }
 
-/// @param most  points that so many bytes can hold at most
+/// @param most  largest number of points that so many bytes can contain
 void checkPromise(const Header& header, std::uint64_t most, std::uint64_t body_size)
 {
   if (header.points() > most) {
@@ -272,7 +272,7 @@ void checkPromise(const Header& header, std::uint64_t most, std::uint64_t body_s
   }
 }
 
-/// A cloud with the header's layout and zeros for data.
+/// A cloud with the header's layout; its data is zero.
 pcl::PCLPointCloud2 makeCloud(const Header& header)
 {
   pcl::PCLPointCloud2 cloud;
@@ -293,7 +293,7 @@ void read(std::istream& file, void* data, std::uint64_t size)
   }
 }
 
-/// PCL reads words that are no numbers, and lines that lack some, as zeros.
+/// Checks the numbers of an ascii file, because PCL reads words that are not numbers, and missing values, as zeros.
 void checkAsciiPoints(const Header& header, std::istream& body)
 {
   std::uint64_t points = 0;
@@ -346,10 +346,11 @@ pcl::PCLPointCloud2 readBinary(const Header& header, std::istream& file, std::ui
   return cloud;
 }
 
-/// The body is one LZF block, field after field, behind its compressed and its uncompressed size.
+/// Reads a compressed body: the compressed size, the uncompressed size, and one LZF block with the fields one after
+/// another.
 pcl::PCLPointCloud2 readCompressed(const Header& header, std::istream& file, std::uint64_t body_size)
 {
-  constexpr std::uint64_t kLzfMaxRatio = 264 / 3;  // a back reference of 3 bytes stands for at most 264
+  constexpr std::uint64_t kLzfMaxRatio = 264 / 3;  // a back reference of 3 bytes stands for at most 264 bytes
   for (const auto& field : header.fields) {
     if (field.name == kPadding) {
       throw CloudError("the compressed PCD file has padding fields, which PCL misplaces");

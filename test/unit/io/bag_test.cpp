@@ -271,7 +271,7 @@ TEST_F(BagTest, refusesAnIndexOfNoConnection)
   ASSERT_NE(index, std::string::npos);
   const std::size_t connection = good.rfind("conn=", index) + 5;
   ASSERT_LT(index - connection, 40U) << "fields of one header, by name";
-  expectRefused(writeFile(changed(good, connection, kHuge)), "", "an index is of no connection");
+  expectRefused(writeFile(changed(good, connection, kHuge)), "", "an index belongs to no connection");
 }
 
 TEST_F(BagTest, refusesMessagesThatAreNotThere)
@@ -372,9 +372,9 @@ TEST_F(BagTest, refusesNamesThatCannotBePrinted)
 {
   const std::string good = content(writeBag(true));
   const std::size_t topic = good.rfind("topic=/points") + 6;
-  expectRefused(writeFile(changed(good, topic, "\n")), "", "the topic of a connection is no name");
+  expectRefused(writeFile(changed(good, topic, "\n")), "", "the topic of a connection is not a valid name");
   const std::size_t type = good.rfind("type=sensor_msgs/PointCloud2") + 5;
-  expectRefused(writeFile(changed(good, type, "\x1b")), "", "the type of a connection is no name");
+  expectRefused(writeFile(changed(good, type, "\x1b")), "", "the type of a connection is not a valid name");
 }
 
 /// A byte of a bag, or four, changed at random: it is read or refused.
