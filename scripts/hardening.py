@@ -14,6 +14,7 @@ import sys
 
 # Name of a file: what it must import, as there are buffers on its stacks and calls with known buffers in it.
 PROTECTED = {
+    'libgrasp_affordances_cameras.so': ('__stack_chk_fail', r'__\w+_chk'),
     'libgrasp_affordances_nodelets.so': ('__stack_chk_fail', r'__\w+_chk'),
     'localize': ('__stack_chk_fail', r'__\w+_chk'),
     'simulate': ('__stack_chk_fail', r'__\w+_chk'),

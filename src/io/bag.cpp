@@ -21,7 +21,7 @@ namespace
 
 const char* const kType = "sensor_msgs/PointCloud2";
 
-/// A bag's message as the bytes of its recording, with the lengths in it proven before roscpp allocates by them.
+/// A PointCloud2 message as recorded bytes. Its lengths are checked before roscpp allocates memory for them.
 class SerializedCloud
 {
 public:
@@ -49,7 +49,7 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t kMostFields = 1000;  // each takes several times the memory that it has in the message
+  static constexpr std::uint32_t kMostFields = 1000;  // in memory a field takes several times its bytes in the message
 
   std::uint32_t length()
   {
@@ -161,7 +161,7 @@ void readBagClouds(const std::string& path, const std::string& topic, const BagV
   }
   checkBag(path);
   try {
-    rosbag::Bag bag;  // its constructor leaves behind what it has read where it throws
+    rosbag::Bag bag;  // opened by open(): if the constructor threw, it would leak what it has read
     bag.open(path, rosbag::bagmode::Read);
     rosbag::View view(bag, rosbag::TopicQuery(chooseTopic(bag, topic)));
     visitMessages(view, visitor);

@@ -25,8 +25,8 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr std::uint32_t kMostFieldBytes = 1000000;   // roscpp refuses longer fields
-constexpr std::uint32_t kMostChunkBytes = 1U << 30;  // when unpacked
+constexpr std::uint32_t kMostFieldBytes = 1000000;   // roscpp rejects longer fields
+constexpr std::uint32_t kMostChunkBytes = 1U << 30;  // after decompression
 constexpr std::uint32_t kNanosecondsPerSecond = 1000000000;
 constexpr std::size_t kLongestName = 255;
 
@@ -37,7 +37,7 @@ void require(bool holds, const std::string& reason)
   }
 }
 
-/// Bytes of a known number, of a file or in memory.
+/// A range of bytes of known size, in a file or in memory.
 struct Region
 {
   std::uint64_t size = 0;
@@ -67,7 +67,7 @@ T numberAt(const std::string& bytes, std::size_t at)
   return value;
 }
 
-/// Fields NAME=VALUE of a header, each behind its length.
+/// The fields NAME=VALUE of a header. Each is preceded by its length.
 class Fields
 {
 public:
@@ -109,12 +109,12 @@ private:
   std::map<std::string, std::string> values_;
 };
 
-/// A header and data behind it, each behind its length.
+/// A record: a header, then data. Each is preceded by its length.
 struct Record
 {
   Fields header;
-  std::uint64_t data;  // where it begins
-  std::uint32_t size;  // of the data
+  std::uint64_t data;  // its start in the region
+  std::uint32_t size;  // size of the data
 
   std::uint64_t end() const { return data + size; }
 };
@@ -134,15 +134,16 @@ void requireName(const std::string& name, const char* of)
 {
   const auto is_printable = [](char c) { return std::isgraph(static_cast<unsigned char>(c)) != 0; };
   require(name.size() <= kLongestName && std::all_of(name.begin(), name.end(), is_printable),
-          std::string("the ") + of + " of a connection is no name");
+          std::string("the ") + of + " of a connection is not a valid name");
 }
 
-/// roslz4 copies a block into a buffer of the size that the frame's header names, whatever the size of the block.
-/// @return bytes that the frame can hold at most
+/// Checks the blocks of an LZ4 frame. roslz4 does not: it copies a block into a buffer of the size that the frame's
+/// header states, even if the block is larger.
+/// @return upper bound of the frame's uncompressed size, bytes
 std::uint64_t requireSoundLz4(const std::string& frame)
 {
   constexpr std::size_t kHeader = 7, kEnd = 8;  // magic number, flags, sizes, check; an empty block, checksum
-  constexpr std::uint64_t kMostPerByte = 255;   // one more byte of a match's length stands for so many
+  constexpr std::uint64_t kMostPerByte = 255;   // a further byte of a match's length stands for so many bytes
   require(frame.size() >= kHeader + kEnd, "a chunk ends within its LZ4 frame");
   const int size_id = static_cast<unsigned char>(frame[5]) >> 4 & 7;
   const int most = size_id < 4 ? -1 : roslz4_blockSizeFromIndex(size_id);
@@ -178,7 +179,7 @@ std::string unpackLz4(std::string& packed, std::uint32_t size)
   return bytes;
 }
 
-/// Memory is asked for as there is something to put into it, not as the chunk claims.
+/// Decompresses a chunk. Memory grows with the decompressed data; the size that the chunk states is not trusted.
 std::string unpackBz2(std::string& packed, std::uint32_t size)
 {
   constexpr std::size_t kStep = 1U << 20;
@@ -202,7 +203,7 @@ std::string unpackBz2(std::string& packed, std::uint32_t size)
   return bytes;
 }
 
-/// The content of a chunk, which refers to the file where that is not compressed.
+/// The content of a chunk. For an uncompressed chunk it refers to the file.
 Region unpack(const Region& file, const Record& chunk)
 {
   const std::string& compression = chunk.header.text(rosbag::COMPRESSION_FIELD_NAME);
@@ -214,7 +215,7 @@ Region unpack(const Region& file, const Record& chunk)
             }};
   }
   require(compression == rosbag::COMPRESSION_LZ4 || compression == rosbag::COMPRESSION_BZ2,
-          "a chunk is of an unknown compression");
+          "a chunk has an unknown compression");
   require(size <= kMostChunkBytes && chunk.size <= kMostChunkBytes, "a compressed chunk claims more than 1 GiB");
   std::string packed = file.read(chunk.data, chunk.size, "a chunk");
   const auto bytes = std::make_shared<const std::string>(
@@ -223,7 +224,7 @@ Region unpack(const Region& file, const Record& chunk)
           [bytes](std::uint64_t at, void* to, std::size_t length) { std::memcpy(to, bytes->data() + at, length); }};
 }
 
-/// Connections of a bag by number: whether they are of clouds.
+/// For each connection of a bag, by its number: whether its messages are clouds.
 using Connections = std::map<std::uint32_t, bool>;
 
 class BagCheck
@@ -262,7 +263,7 @@ private:
       const Fields connection(file_.read(record.data, record.size, "a connection"));
       const std::string type = connection.has("type") ? connection.text("type") : "";
       requireName(type, "type");
-      // The first of several of one number counts.
+      // If several connections have one number, the first counts.
       connections_.emplace(record.header.number<std::uint32_t>(rosbag::CONNECTION_FIELD_NAME),
                            type == "sensor_msgs/PointCloud2");
       position_ = record.end();
@@ -271,7 +272,7 @@ private:
 
   void readChunks(std::uint32_t count)
   {
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> extents;  // of chunks with their indexes
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> extents;  // start and end of each chunk with its indexes
     for (; count > 0; --count) {
       const Record record = readRecord(file_, position_, rosbag::OP_CHUNK_INFO, "the information on a chunk");
       require(record.header.number<std::uint32_t>(rosbag::VER_FIELD_NAME) == rosbag::CHUNK_INFO_VERSION,
@@ -295,13 +296,13 @@ private:
     }
   }
 
-  /// @return where the indexes end that follow it
+  /// @return the end of the indexes that follow the chunk
   std::uint64_t readChunk(std::uint64_t begin, std::size_t indexes)
   {
     const Record chunk = readRecord(file_, begin, rosbag::OP_CHUNK, "a chunk");
-    require(!chunk.header.text(rosbag::COMPRESSION_FIELD_NAME).empty(), "a chunk is of no compression");
+    require(!chunk.header.text(rosbag::COMPRESSION_FIELD_NAME).empty(), "a chunk names no compression");
     chunk.header.number<std::uint32_t>(rosbag::SIZE_FIELD_NAME);
-    std::vector<std::uint32_t> clouds;  // where in the chunk they are
+    std::vector<std::uint32_t> clouds;  // their positions in the chunk
     std::uint64_t position = chunk.end();
     for (; indexes > 0; --indexes) {
       const Record record = readRecord(file_, position, rosbag::OP_INDEX_DATA, "the index of a chunk");
@@ -319,9 +320,9 @@ private:
     require(record.header.number<std::uint32_t>(rosbag::VER_FIELD_NAME) == rosbag::INDEX_VERSION,
             "an index is of another version");
     const auto connection = connections_.find(record.header.number<std::uint32_t>(rosbag::CONNECTION_FIELD_NAME));
-    require(connection != connections_.end(), "an index is of no connection");
+    require(connection != connections_.end(), "an index belongs to no connection");
     const auto count = record.header.number<std::uint32_t>(rosbag::COUNT_FIELD_NAME);
-    constexpr std::size_t kEntry = 12;  // bytes: seconds, nanoseconds, place in the chunk
+    constexpr std::size_t kEntry = 12;  // bytes: seconds, nanoseconds, position in the chunk
     require(record.size == std::uint64_t{kEntry} * count, "an index is not as long as it claims");
     const std::string data = file_.read(record.data, record.size, "an index");
     for (std::size_t at = 0; at < data.size(); at += kEntry) {

@@ -5,12 +5,15 @@
 namespace grasp_affordances
 {
 
-/// Proves what librosbag takes on trust when it reads PointCloud2 messages from a bag of version 2.0: that every
-/// length, count and position in it stays within the file, that records do not overlap, that indexed messages exist,
-/// once, and are of connections that are declared, and that compressed chunks hold what they claim. Names of topics and
-/// types are printable then. Reads the index, and of chunks with clouds in them the headers of these; compressed ones
-/// are unpacked for that, one at a time.
-/// @throw CloudError, without the path, for another file; for an encrypted bag and one without an index, too
+/// Checks a bag of version 2.0 for everything that librosbag assumes when it reads PointCloud2 messages:
+///  - every length, count and position stays within the file, and records do not overlap;
+///  - each indexed message exists, is indexed once, and belongs to a declared connection;
+///  - compressed chunks have the content that they state;
+///  - names of topics and types are printable.
+/// It reads the index, and the headers of messages in chunks with clouds. Compressed chunks are decompressed for this,
+/// one at a time.
+/// @throw CloudError, without the path in its text, if a check fails, if the file is not such a bag, if the bag is
+/// encrypted, or if it has no index
 void checkBag(const std::string& path);
 
 }  // namespace grasp_affordances

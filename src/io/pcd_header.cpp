@@ -133,7 +133,7 @@ void parseFields(const Entries& entries, PcdHeader& header)
     throw CloudError("PCD header: FIELDS names no field");
   }
   if (entries.has("SIZE") != entries.has("TYPE")) {
-    throw CloudError("PCD header: SIZE and TYPE are of use together only");
+    throw CloudError("PCD header: SIZE and TYPE must both be given or both be left out");
   }
   const Words sizes = perField(entries, "SIZE", names.size(), "4");
   const Words types = perField(entries, "TYPE", names.size(), "F");
@@ -147,7 +147,7 @@ void parseFields(const Entries& entries, PcdHeader& header)
     const int datatype = size > 8 || types[i].size() != 1 ? -1 : pcl::getFieldType(static_cast<int>(size), types[i][0]);
     if (datatype < 0) {
       throw CloudError("PCD header: field " + names[i] + " has SIZE " + sizes[i] + " and TYPE " + types[i] +
-                       ", which is no type of PCL's");
+                       ", which is not a type of PCL");
     }
     pcl::PCLPointField field;
     field.name = names[i];

@@ -18,7 +18,7 @@ std::size_t bytesPerPixel(openni::PixelFormat format)
   return format == openni::PIXEL_FORMAT_RGB888 ? 3 : sizeof(std::uint16_t);
 }
 
-/// Copies rows of pixels that are as large as a Pixel.
+/// Copies all rows without the gaps between them. A pixel of the image has the size of Pixel.
 template <typename Pixel>
 void copyRows(const RawImage& image, bool mirrored, Pixel* pixels)
 {
@@ -34,7 +34,8 @@ void copyRows(const RawImage& image, bool mirrored, Pixel* pixels)
 
 bool isIntact(const RawImage& image, const ImageLayout& layout)
 {
-  constexpr std::size_t kLargest = std::numeric_limits<int>::max();  // beyond it a device meant a negative number
+  // A device may report negative numbers, which are larger than this as std::size_t.
+  constexpr std::size_t kLargest = std::numeric_limits<int>::max();
   return image.stride <= kLargest && image.bytes <= kLargest && image.data != nullptr && image.width == layout.width &&
          image.height == layout.height && image.format == layout.format &&
          image.stride >= image.width * bytesPerPixel(image.format) && image.bytes == image.stride * image.height;

@@ -8,7 +8,7 @@
 namespace grasp_affordances
 {
 
-/// A picture as OpenNI2 hands it out: rows of pixels, with or without a gap between them.
+/// An image as OpenNI2 delivers it: rows of pixels. There may be unused bytes between two rows.
 struct RawImage
 {
   const void* data = nullptr;
@@ -19,31 +19,35 @@ struct RawImage
   openni::PixelFormat format = openni::PIXEL_FORMAT_DEPTH_1_MM;
 };
 
-/// What the pictures of a stream look like.
+/// Size and pixel format of the images of a stream.
 struct ImageLayout
 {
   int width = 0;
   int height = 0;
-  openni::PixelFormat format = openni::PIXEL_FORMAT_DEPTH_1_MM;  ///< one of those of supportedVideoMode()
-  bool mirrored = false;  ///< left and right are exchanged, as programs of OpenNI2 like to record
+  openni::PixelFormat format = openni::PIXEL_FORMAT_DEPTH_1_MM;  ///< one that supportedVideoMode() accepts
+  bool mirrored = false;  ///< left and right are exchanged; recordings often are mirrored
 };
 
-/// Whether a picture is what its stream promises; a transfer that was torn leaves one of another size, or half of one.
+/// Whether an image has the size and format of its stream. An interrupted USB transfer leaves an image of another size,
+/// or a part of one.
 bool isIntact(const RawImage& image, const ImageLayout& layout);
 
-/// Correction of measured depth, with openni2_camera's names: a depth d becomes (d + z_offset_mm) z_scaling.
+/// Correction of measured depth. A depth d in millimetres becomes (d + z_offset_mm) * z_scaling. The names are those of
+/// openni2_camera.
 struct DepthCorrection
 {
   double z_scaling = 1.0;
   int z_offset_mm = 0;
 };
 
-/// Depth in millimetres, rounded, row by row without gaps and not mirrored (REP 118). 0, not measured, stays 0, and
-/// what the correction takes below 1 mm or beyond 65535 mm becomes it. The picture must be intact.
+/// Writes the depth image in millimetres, rounded, row by row without gaps and not mirrored (REP 118). 0 means "not
+/// measured" and stays 0. A corrected depth below 1 mm or above 65535 mm becomes 0. The image must be intact.
+/// @param[out] depth  width x height values
 void depthMillimetres(const RawImage& image, const ImageLayout& layout, const DepthCorrection& correction,
                       std::uint16_t* depth);
 
-/// Colors as bytes r g b, row by row without gaps and not mirrored. The picture must be intact.
+/// Writes the color image as bytes r g b, row by row without gaps and not mirrored. The image must be intact.
+/// @param[out] rgb  3 x width x height bytes
 void rgbBytes(const RawImage& image, const ImageLayout& layout, std::uint8_t* rgb);
 
 }  // namespace grasp_affordances

@@ -32,7 +32,7 @@ std::string serialNumber(const openni::Device& device)
 std::string serialNumberOf(const std::string& uri)
 {
   openni::Device device;
-  const bool opened = device.open(uri.c_str()) == openni::STATUS_OK;  // not where another program uses it
+  const bool opened = device.open(uri.c_str()) == openni::STATUS_OK;  // fails if another program uses the device
   return opened ? serialNumber(device) : "";
 }
 
@@ -100,8 +100,8 @@ void Device::close()
     stream.video.stop();
   }
   if (device_.isValid() && isRecording()) {
-    // The player's thread walks along the list of streams without a lock, and all the time at the end of a recording.
-    // Once it has finished its frame and finds none that runs, it sleeps for 10 ms at a time; that is when they may go.
+    // The player's thread reads the list of streams without a lock. At the end of a recording it does so all the time.
+    // When no stream runs, it finishes its frame and then sleeps 10 ms at a time. Only then streams may be destroyed.
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   for (Stream& stream : streams_) {
@@ -116,11 +116,11 @@ void Device::open(const std::string& id)
   check(device_.open(uri_.c_str()), uri_ + " cannot be opened");
   serial_ = serialNumber(device_);
   listens_ = true;
-  check(openni::OpenNI::addDeviceDisconnectedListener(this), "no news of devices");
-  check(openni::OpenNI::addDeviceStateChangedListener(this), "no news of devices");
+  check(openni::OpenNI::addDeviceDisconnectedListener(this), "OpenNI2 does not report devices");
+  check(openni::OpenNI::addDeviceStateChangedListener(this), "OpenNI2 does not report devices");
   const std::vector<std::string> uris = runtime_->deviceUris();
   if (!isRecording() && std::find(uris.begin(), uris.end(), uri_) == uris.end()) {
-    throw DeviceNotFound(uri_ + " was disconnected");  // before anybody listened
+    throw DeviceNotFound(uri_ + " was disconnected");  // before the listeners were added
   }
 }
 
@@ -136,11 +136,11 @@ void Device::openStream(Sensor sensor, const FrameMode& mode)
   if (!isRecording()) {
     check(video.setVideoMode(supportedVideoMode(name, sensorType(sensor), videoModes(video), mode)),
           name + ": mode " + frameModeWord(mode));
-    video.setMirroringEnabled(false);  // what a device does not know is not on
+    video.setMirroringEnabled(false);  // a device without this setting does not mirror
   }
   const openni::VideoMode actual = video.getVideoMode();
   const FrameMode actual_mode{actual.getResolutionX(), actual.getResolutionY(), actual.getFps()};
-  supportedVideoMode(name, sensorType(sensor), {actual}, actual_mode);  // refuses what cannot be read
+  supportedVideoMode(name, sensorType(sensor), {actual}, actual_mode);  // throws if the format cannot be read
   opened.layout = {actual_mode.width, actual_mode.height, actual.getPixelFormat(), video.getMirroringEnabled()};
   opened.field_of_view = reportedFieldOfView(video);
 }

@@ -7,8 +7,8 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr std::int64_t kWindow = 5'000'000'000;           // ns, of which the smallest offset counts
-constexpr std::uint64_t kLatest = 4'000'000'000'000'000;  // us: what is later is none, and would overflow
+constexpr std::int64_t kWindow = 5'000'000'000;           // ns; the estimate is the smallest offset within this time
+constexpr std::uint64_t kLatest = 4'000'000'000'000'000;  // us; a later time is invalid and would overflow
 
 }  // namespace
 

@@ -5,14 +5,15 @@
 namespace grasp_affordances
 {
 
-/// A camera, or the OpenNI2 runtime, does not do what is asked of it; what() says what and, where OpenNI2 tells, why.
+/// A camera or the OpenNI2 runtime fails to do what was requested. what() names the request, and the reason if OpenNI2
+/// gives one.
 class DeviceError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// There is no such device.
+/// The requested device is not connected.
 class DeviceNotFound : public DeviceError
 {
 public:

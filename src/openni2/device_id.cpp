@@ -12,7 +12,7 @@ namespace
 
 [[noreturn]] void refuse(const std::string& reason, const std::vector<std::string>& uris)
 {
-  std::string text = reason + " among those connected:";
+  std::string text = reason + "; connected:";
   for (const std::string& uri : uris) {
     text += " " + uri;
   }
@@ -41,7 +41,7 @@ std::string deviceUri(const std::string& id, const std::vector<std::string>& uri
   if (std::regex_match(id, match, number)) {
     const std::size_t position = std::stoul(match[1]);
     if (position > uris.size()) {
-      refuse("none is " + id, uris);
+      refuse("no device is " + id, uris);
     }
     return uris[position - 1];
   }
@@ -56,7 +56,7 @@ std::string deviceUri(const std::string& id, const std::vector<std::string>& uri
     std::copy_if(uris.begin(), uris.end(), std::back_inserter(found), has_serial);
   }
   if (found.size() != 1) {
-    refuse((found.empty() ? "none is " : "more than one is ") + id, uris);
+    refuse((found.empty() ? "no device is " : "more than one device is ") + id, uris);
   }
   return found.front();
 }

@@ -10,7 +10,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// OpenNI2 counts calls of initialize() and shutdown(), but not safely for several threads.
+/// OpenNI2 counts the calls of initialize() and shutdown(), but the counter is not safe for several threads.
 std::mutex& runtimeMutex()
 {
   static std::mutex mutex;
@@ -36,7 +36,8 @@ OpenNi2Runtime::OpenNi2Runtime()
   try {
     check(openni::OpenNI::initialize(), "OpenNI2 does not start");
   } catch (const DeviceError&) {
-    openni::OpenNI::shutdown();  // this attempt was counted, and the next one would succeed without any driver
+    openni::OpenNI::shutdown();  // the failed call was counted; without this the next one would "succeed" without any
+                                 // driver
     throw;
   }
 }

@@ -9,12 +9,12 @@
 namespace grasp_affordances
 {
 
-/// The OpenNI2 runtime of this process, with its drivers, for as long as somebody holds it: it is initialized for the
-/// first holder and shut down with the last one. Its methods may be called from any thread.
+/// The OpenNI2 runtime of this process, with its drivers. It is initialized for the first holder of the pointer, and
+/// shut down when the last one releases it. Its methods may be called from any thread.
 class OpenNi2Runtime
 {
 public:
-  /// @throw DeviceError where the runtime does not start, as without any driver.
+  /// @throw DeviceError if the runtime does not start, for example without any driver.
   static std::shared_ptr<OpenNi2Runtime> get();
 
   ~OpenNi2Runtime();
@@ -28,7 +28,7 @@ private:
   OpenNi2Runtime();
 };
 
-/// @throw DeviceError with `what` and OpenNI2's reason, unless the status is OK.
+/// @throw DeviceError, with the text `what` and OpenNI2's reason, if the status is not OK.
 void check(openni::Status status, const std::string& what);
 
 }  // namespace grasp_affordances

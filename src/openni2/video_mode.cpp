@@ -12,7 +12,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// The pixel formats of a sensor that are read, the best first.
+/// The pixel formats of a sensor that this package reads, best first.
 std::vector<openni::PixelFormat> readableFormats(openni::SensorType type)
 {
   if (type == openni::SENSOR_DEPTH) {
@@ -47,7 +47,7 @@ const openni::VideoMode& supportedVideoMode(const std::string& sensor, openni::S
                                             const std::vector<openni::VideoMode>& modes, const FrameMode& wanted)
 {
   const std::vector<openni::PixelFormat> formats = readableFormats(type);
-  const auto rank = [&](const openni::VideoMode& mode) {  // the smaller, the better
+  const auto rank = [&](const openni::VideoMode& mode) {  // smaller is better
     return std::find(formats.begin(), formats.end(), mode.getPixelFormat());
   };
   const openni::VideoMode* best = nullptr;

@@ -16,16 +16,18 @@ struct FrameMode
   int rate = 30;  ///< Hz
 };
 
-/// Reads words such as 640x480@30. @throw std::invalid_argument that says what is expected.
+/// Parses a word such as 640x480@30. @throw std::invalid_argument; what() describes a valid word.
 FrameMode frameModeFromWord(const std::string& word);
 
-/// The other way.
+/// The word for a mode, such as 640x480@30.
 std::string frameModeWord(const FrameMode& mode);
 std::string frameModeWord(const openni::VideoMode& mode);
 
-/// The one of a sensor's modes that has the wanted size and rate, and a pixel format that this package reads: depth in
-/// millimetres, else in tenths of them; color as RGB888. A recording may have one sensor's in the other's stream.
-/// @throw DeviceError, which begins with `sensor`, with a list of the modes that could have been asked for.
+/// Selects the mode with the wanted size and rate and with a pixel format that this package reads: for depth
+/// millimetres or, if there is no such mode, tenths of a millimetre; for color RGB888. The format is checked, because a
+/// recording may have a format of one sensor in the other sensor's stream.
+/// @param sensor name of the sensor, for the message
+/// @throw DeviceError if there is none; its message begins with `sensor` and lists the modes that can be requested.
 const openni::VideoMode& supportedVideoMode(const std::string& sensor, openni::SensorType type,
                                             const std::vector<openni::VideoMode>& modes, const FrameMode& wanted);
 

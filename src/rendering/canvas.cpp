@@ -15,10 +15,10 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr int kLongSide = 1280;        // pixels that the longer side of a picture has about
-constexpr double kFarOutside = 1e5;    // camera pixels from the first one that cairo need not be asked to draw
-constexpr double kHidden = 0.35;       // opacity of what lies behind measured points, relative to what does not
-constexpr double kHiddenDepth = 0.01;  // m behind a point at which a line counts as hidden
+constexpr int kLongSide = 1280;        // pixels, approximate length of the picture's longer side
+constexpr double kFarOutside = 1e5;    // camera pixels; what is farther outside is not passed to cairo
+constexpr double kHidden = 0.35;       // opacity of hidden lines, relative to visible ones
+constexpr double kHiddenDepth = 0.01;  // m; a line that is so far behind a measured point is hidden
 
 }  // namespace
 

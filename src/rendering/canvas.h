@@ -15,9 +15,9 @@
 namespace grasp_affordances
 {
 
-using Polygon = std::vector<Eigen::Vector2d>;  ///< in the picture: pixels
+using Polygon = std::vector<Eigen::Vector2d>;  ///< corners in pixels of the picture
 
-/// A shaded cloud to draw on with cairo.
+/// A picture of a shaded cloud, to draw on with cairo.
 class Canvas
 {
 public:
@@ -28,18 +28,18 @@ public:
   cairo_t* context() const { return context_.get(); }
   cairo_surface_t* surface() const { return surface_.get(); }
 
-  /// Empty behind the camera and far outside.
+  /// Position of a point in the picture. Empty if it is behind the camera or far outside.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
 
-  /// Appends to `pixels`. False where there is no pixel for one of the points.
+  /// Projects points and appends them to `pixels`. Returns false if one of them has no pixel.
   bool project(const Polyline& line, Polygon& pixels) const;
 
   void setColor(const Color& color, double opacity);
 
-  /// Makes a closed path of the polygon.
+  /// Makes the polygon the current path, closed.
   void path(const Polygon& polygon);
 
-  /// Strokes a line in space, fainter where it runs behind measured points.
+  /// Draws a line in space. It is fainter where it is behind measured points.
   void stroke(const Polyline& line, const Color& color, double opacity);
 
 private:

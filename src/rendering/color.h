@@ -7,15 +7,15 @@
 namespace grasp_affordances
 {
 
-/// Components in [0, 1].
+/// A color; its components are in [0, 1].
 struct Color
 {
   float r = 0.0F, g = 0.0F, b = 0.0F;
 };
 
-/// Colors of the points of a sensor_msgs::PointCloud2 or pcl::PCLPointCloud2, in the order of its points, from its
-/// field `rgb` or `rgba` (0xRRGGBB in the lower bytes). Empty where there is none. The message's sizes must agree, as
-/// cloudFromPointCloud2 checks.
+/// Reads the colors of a sensor_msgs::PointCloud2 or pcl::PCLPointCloud2 from its field `rgb` or `rgba` (0xRRGGBB in
+/// the lower bytes), in the order of the points. Empty if there is no such field. The message's sizes must be
+/// consistent; cloudFromPointCloud2 checks that.
 template <class PointCloud2>
 std::vector<Color> pointColors(const PointCloud2& message)
 {

@@ -20,14 +20,14 @@ constexpr std::array<Color, 6> kPalette{{{1.00F, 0.62F, 0.05F},
                                          {1.00F, 0.95F, 0.30F}}};
 constexpr Color kOfNoHandle{0.75F, 0.75F, 0.75F};
 constexpr double kArrowLength = 0.03;      // m
-constexpr std::size_t kMostHandPoses = 8;  // of a handle that are drawn
+constexpr std::size_t kMostHandPoses = 8;  // drawn per handle
 
 Color colorOf(const GraspHandle& handle)
 {
   return kPalette[(handle.id + kPalette.size() - 1) % kPalette.size()];
 }
 
-/// The more shells there are in one place, the fainter is each.
+/// Draws shells. The more there are, the fainter each is drawn.
 void drawShells(Picture& picture, const std::vector<Shell>& shells, const std::vector<std::uint32_t>& indices,
                 const Color& color)
 {
@@ -59,7 +59,7 @@ std::vector<std::uint32_t> shellsOfNoHandle(const Localization& localization)
   return rest;
 }
 
-/// Corners of a box in the frame of a hand: x along the approach, y where fingers and thumb oppose, z along the axis.
+/// Corners of a box in the hand's frame: x along the approach, y from thumb to fingers, z along the axis.
 std::vector<Eigen::Vector3d> box(const Eigen::Isometry3d& hand, const Eigen::Vector3d& min, const Eigen::Vector3d& max)
 {
   std::vector<Eigen::Vector3d> corners;
@@ -75,8 +75,8 @@ Color lightened(const Color& color)
   return {0.5F + 0.5F * color.r, 0.5F + 0.5F * color.g, 0.5F + 0.5F * color.b};
 }
 
-/// Palm, finger and thumb of an open hand, as wide as the fingers are along the axis. The palm, which is in front of
-/// the handle where the hand comes from the sensor's side, is hardly filled.
+/// Draws palm, finger and thumb of an open hand. Along the axis they are as wide as the fingers. The palm is almost
+/// transparent, because it covers the handle if the hand approaches from the sensor's side.
 void drawHand(Picture& picture, const GraspPose& grasp, const Config& config, const Color& color)
 {
   const HandGeometry& geometry = config.hand;

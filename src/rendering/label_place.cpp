@@ -9,7 +9,7 @@ namespace
 {
 
 constexpr double kDistance = 6.0;       // pixels between a label and its subject
-constexpr double kOutsideWeight = 4.0;  // pixels that are covered, for one that is out of the picture
+constexpr double kOutsideWeight = 4.0;  // a pixel outside the picture counts as so many covered pixels
 
 double area(const Rectangle& rectangle)
 {

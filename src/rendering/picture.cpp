@@ -24,12 +24,12 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kRingSegments = 48;
 constexpr double kArrowHead = 14.0;      // pixels
-constexpr double kLabelSize = 40.0;      // pixels, of the font
+constexpr double kLabelSize = 40.0;      // pixels, size of the font
 constexpr double kCaptionHeight = 38.0;  // pixels
 constexpr Color kWhite{1.0F, 1.0F, 1.0F};
 constexpr Color kBlack{0.0F, 0.0F, 0.0F};
 
-/// @param normal  unit, at right angles to the axis, which is of unit length, too
+/// @param normal  unit vector, at right angles to the axis, which is a unit vector, too
 Polyline ring(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, const Eigen::Vector3d& normal, double radius)
 {
   const Eigen::Vector3d third = axis.cross(normal);
@@ -41,7 +41,7 @@ Polyline ring(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, const 
   return points;
 }
 
-/// Two end rings of a cylinder around a shell's axis.
+/// The two end circles of a cylinder around a shell's axis.
 std::array<Polyline, 2> endRings(const Shell& shell, double radius)
 {
   const Eigen::Vector3d half = 0.5 * shell.length * shell.axis;
@@ -49,7 +49,7 @@ std::array<Polyline, 2> endRings(const Shell& shell, double radius)
           ring(shell.centroid + half, shell.axis, shell.normal, radius)};
 }
 
-/// A ring about each point of a line, at right angles to the line there.
+/// A circle about each point of a line, at right angles to the line at that point.
 std::vector<Polyline> tubeRings(const Polyline& line, double radius)
 {
   std::vector<Polyline> rings;
@@ -66,7 +66,7 @@ double cross(const Eigen::Vector2d& origin, const Eigen::Vector2d& a, const Eige
   return (a - origin).x() * (b - origin).y() - (a - origin).y() * (b - origin).x();
 }
 
-/// Monotone chain. The hull of a cylinder's end rings is its silhouette.
+/// Convex hull, by the monotone chain algorithm. The hull of a cylinder's end circles is its silhouette.
 Polygon convexHull(Polygon points)
 {
   std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -190,7 +190,8 @@ void Picture::drawHull(const Polyline& corners, const BodyStyle& style)
   }
 }
 
-/// Outlines under the fillings, which then replace what they cover of them: what is left goes around all together.
+/// Draws all outlines first. The fillings then replace the parts of outlines that they cover, so that one outline
+/// remains around all polygons together.
 void Picture::drawUnion(const std::vector<Polygon>& polygons, const BodyStyle& style)
 {
   cairo_t* context = canvas_->context();

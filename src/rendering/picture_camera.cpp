@@ -12,10 +12,11 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kNear = 1e-3;  // m, nothing nearer is projected
+constexpr double kNear = 1e-3;  // m; nearer points are not projected
 
-/// Rows: the camera's x, y and z in the cloud's frame. Looking along the cloud's z it is an optical frame, whose y
-/// points down; looking elsewhere, z is taken for up.
+/// Rotation from the cloud's frame to the camera's; its rows are the camera's x, y and z axis. If the camera looks
+/// along the cloud's z, the cloud's frame is taken as an optical frame, whose y points down. Otherwise its z is taken
+/// as up.
 Eigen::Matrix3d cameraRotation(const Eigen::Vector3d& forward)
 {
   const Eigen::Vector3d down = forward.z() > 0.7 ? Eigen::Vector3d(0, 1, 0) : Eigen::Vector3d(0, 0, -1);

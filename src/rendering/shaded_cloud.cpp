@@ -15,10 +15,11 @@ namespace
 
 constexpr Color kBackground{0.11F, 0.12F, 0.14F};
 constexpr Color kGrey{0.78F, 0.78F, 0.78F};
-constexpr float kSaturation = 0.45F;    // share of a point's own color that is kept
-constexpr float kSameSurface = 0.015F;  // relative difference of depth up to which pixels are on one surface
+constexpr float kSaturation = 0.45F;    // share of a point's color that is kept
+constexpr float kSameSurface = 0.015F;  // largest relative difference in depth of neighboring pixels on one surface
 
-/// Depth and color per pixel, for points splatted as squares that overlap where the cloud is sparse.
+/// Depth and color per pixel. Each point is drawn as a square; the squares are large enough to overlap in sparse
+/// clouds.
 class Raster
 {
 public:
@@ -65,7 +66,8 @@ private:
   int splat_radius_;
 };
 
-/// Mean depth of the pixels around each that lie on its surface: the sensor's noise would drown the shading.
+/// For each pixel, the mean depth of the pixels around it on the same surface. Without it the sensor's noise would
+/// dominate the shading.
 std::vector<float> smoothed(const Raster& raster)
 {
   constexpr int kRadius = 4;
@@ -92,7 +94,7 @@ std::vector<float> smoothed(const Raster& raster)
   return result;
 }
 
-/// Brightness of a pixel under a light beside the camera, from the surface's tangents towards its neighbors.
+/// Brightness of a pixel, for a light beside the camera. The surface's tangents follow from the neighboring pixels.
 class Light
 {
 public:
@@ -121,7 +123,8 @@ private:
     return {z * static_cast<float>((u - k.cx) / k.fx), z * static_cast<float>((v - k.cy) / k.fy), z};
   }
 
-  /// Difference of the outermost points on one surface, up to three pixels to either side; zero where there are none.
+  /// Difference between the outermost points on the same surface, up to three pixels to either side; zero if there are
+  /// none.
   Eigen::Vector3f tangent(int u, int v, int du, int dv) const
   {
     Eigen::Vector3f ends[2];
@@ -155,7 +158,7 @@ Color desaturated(const Color& color)
   return {mix(color.r), mix(color.g), mix(color.b)};
 }
 
-/// Half the side of the squares that make a cloud of so many points look closed.
+/// Half the side of the squares, in pixels, such that so many points look like closed surfaces.
 int splatRadius(const Cloud& cloud, const PictureCamera& camera)
 {
   if (camera.is_sensor) {

@@ -9,14 +9,14 @@
 namespace grasp_affordances
 {
 
-/// What a camera sees of a cloud, row-major.
+/// Image of a cloud as a camera sees it, row-major.
 struct ShadedCloud
 {
-  std::vector<float> depth;   ///< m along the camera's z; NaN where there is nothing
-  std::vector<Color> pixels;  ///< lit from the camera; the background where there is nothing
+  std::vector<float> depth;   ///< m along the camera's z; NaN if no point is there
+  std::vector<Color> pixels;  ///< lit from the camera; the background color if no point is there
 };
 
-/// @param colors  of the points, desaturated for the shading; empty: grey
+/// Renders a cloud. @param colors  of the points; they are desaturated for the shading; empty: grey
 ShadedCloud shade(const Cloud& cloud, const std::vector<Color>& colors, const PictureCamera& camera);
 
 }  // namespace grasp_affordances

@@ -15,8 +15,8 @@ namespace
 constexpr double kDepthInside = 0.0015;  ///< m
 constexpr double kSpacing = 0.015;       ///< m
 constexpr int kTries = 600;
-constexpr double kWidening = 0.02;   ///< of the spread with every try
-constexpr double kInPicture = 0.95;  ///< share of an object
+constexpr double kWidening = 0.02;   ///< relative increase of the spread with every try
+constexpr double kInPicture = 0.95;  ///< share of an object's points that must be in the picture
 
 void appendPointsInside(const Part& part, std::vector<Eigen::Vector3d>& points)
 {
@@ -213,7 +213,7 @@ bool Arrangement::intoStage(const Body& body) const
 
 bool Arrangement::apart(const Body& a, const Body& b) const
 {
-  // The bounds are those of points below the surfaces.
+  // The bounds are those of points inside the material, kDepthInside below the surfaces.
   if (a.bounds.exteriorDistance(b.bounds) > gap_ + 2.0 * kDepthInside)
     return true;
   for (const Eigen::Vector3d& p : a.points) {

@@ -12,7 +12,7 @@ namespace
 {
 
 /// A table seen from one of its long sides. Scene frame: z = 0 is the table's top, y points away from the camera, and
-/// what stands at the origin is in the middle of the picture.
+/// the origin is in the middle of the picture.
 View viewOfTable(CounterRandom& random)
 {
   View view;
@@ -33,7 +33,7 @@ View emptyTable(std::uint64_t seed)
   return viewOfTable(random);
 }
 
-/// Mug and bar in front, bottle and box behind, each in a field of its own; as laid out here, or mirrored.
+/// Mug and bar in front, bottle and box behind, each in its own area; as laid out here, or mirrored.
 View table(std::uint64_t seed)
 {
   CounterRandom random(seed, RandomStream::placement);
@@ -52,7 +52,7 @@ View table(std::uint64_t seed)
   mug.handle_radius = random.uniform(0.041, 0.044);
   mug.handle_tube_radius = random.uniform(0.0076, 0.0082);
   mug.handle_clearance = random.uniform(0.030, 0.033);
-  // Seen from the side, and turned so far towards the camera that no part of the mug is in front of its handle.
+  // The mug is seen from the side, and turned towards the camera so far that it does not cover its handle.
   const double line_of_sight = mirror * 20.0 * kDegree;
   const double towards_camera = kDegree * random.uniform(20.0, 40.0);
   const double handle_yaw = random.coin() ? -towards_camera : 180.0 * kDegree + towards_camera;
@@ -79,8 +79,8 @@ View table(std::uint64_t seed)
   return view;
 }
 
-/// A wall behind two plates that fill the picture but for a gap, so that a strip of the wall poses as a thin bar. Scene
-/// and camera frames coincide but for a roll.
+/// A wall behind two plates with a gap between them. The plates fill the rest of the picture, so that the visible strip
+/// of the wall looks like a thin bar. Scene frame and camera frame differ by a roll only.
 View strip(std::uint64_t seed, Surface plates)
 {
   CounterRandom random(seed, RandomStream::placement);
@@ -92,7 +92,7 @@ View strip(std::uint64_t seed, Surface plates)
   View view;
   view.scene.beginObject("wall");
   view.scene.add(Box{{4.0, 4.0, 0.1}}, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, wall_depth + 0.05)));
-  // The strip is bounded by the rays that graze the far edges of the plates.
+  // The rays that touch the far edges of the plates bound the strip.
   const Eigen::Vector3d size(0.6, 1.2, thickness);
   const double half_gap = 0.5 * width * (plate_depth + thickness) / wall_depth;
   for (const double side : {-1.0, 1.0}) {

@@ -11,7 +11,7 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kDistanceIntoTheVoid = 1.0;  // m, of the point looked at where the optical axis meets nothing
+constexpr double kDistanceIntoTheVoid = 1.0;  // m, distance of the point looked at if the optical axis meets no surface
 
 double distanceLookedAt(const View& view)
 {

@@ -7,9 +7,9 @@
 namespace grasp_affordances
 {
 
-/// Moves the camera of a view on a small circle: it keeps the point that it looks at, where its optical axis meets the
-/// scene, in the middle of its picture and at the same distance, and its line of sight describes a cone about that of
-/// the view at constant speed. Safe to use from several threads.
+/// Moves the camera of a view on a small circle. The camera always looks at the same point, where the view's optical
+/// axis meets the scene, from the same distance. Its line of sight moves on a cone about the view's line of sight, at
+/// constant speed. Safe to use from several threads.
 class CameraOrbit
 {
 public:
@@ -17,7 +17,7 @@ public:
   /// @param period of one turn, s; above 0
   CameraOrbit(const View& view, double amplitude, double period);
 
-  /// T_scene_camera (optical frame) at a time in seconds, of any epoch.
+  /// T_scene_camera (optical frame) at a time in seconds since any epoch.
   Eigen::Isometry3d pose(double time) const;
 
 private:
@@ -27,9 +27,9 @@ private:
   double period_;
 };
 
-/// The same scene by a camera turned about the scene's vertical, z, through the point that it looks at: it keeps its
-/// height, its tilt and its distance from that point.
-/// @param angle rad, counter-clockwise as seen from above; 0 leaves the pose as it is, to the last bit
+/// The same scene seen by a camera that is turned about a vertical axis (the scene's z) through the point that it looks
+/// at. Height, tilt and distance from that point stay the same.
+/// @param angle rad, counter-clockwise as seen from above; with 0 the pose is exactly the same
 View viewFromAside(View view, double angle);
 
 }  // namespace grasp_affordances

@@ -23,7 +23,7 @@ std::vector<PartAxis> axesOf(const Scene& scene, std::size_t part)
   return result;
 }
 
-/// One axis per part of a chain, so directed that each starts near the end of the one before.
+/// One axis per part of a chain. Its direction is such that it starts near the end of the part before.
 std::vector<PartAxis> chainAxes(const Scene& scene, const std::vector<std::size_t>& chain)
 {
   std::vector<std::vector<PartAxis>> options;

@@ -99,7 +99,7 @@ Scene randomBucket(CounterRandom& random)
   constexpr double wire = 0.0035;
   constexpr double half_grip = 0.4;
   const double half_side = 0.5 * (0.5 * kPi - half_grip);
-  // About the y axis between the hinges, from upright.
+  // Rotation of the bail about the y axis through its hinges; 0 is upright.
   const double tilt = kDegree * random.uniform(-30.0, 30.0);
   Scene scene;
   scene.beginObject("bucket");

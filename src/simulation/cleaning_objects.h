@@ -6,18 +6,18 @@
 namespace grasp_affordances
 {
 
-// Things to clean with. Scenes of one object each, in a size of their own. The frame of each has its origin on the
-// floor below its middle, z up; what has a front or a handle has it towards +x. Metres.
+// Cleaning tools. Each function returns a scene with one object of random size. Its frame has the origin on the floor
+// below the object's middle, and z up; a front or handle points towards +x. All lengths are in metres.
 
-/// A flat tray with raised sides, which look like handles to who sees no further than a few centimetres, and a handle.
+/// A flat tray with a handle, and with raised sides that look like handles in a neighborhood of a few centimetres.
 Scene randomDustPan(CounterRandom& random);
-/// Lies on its bristles; its handle hovers.
+/// Lies on its bristles, so that its handle is above the floor.
 Scene randomBrush(CounterRandom& random);
 /// Its neck can be grasped below the trigger head.
 Scene randomSprayBottle(CounterRandom& random);
 /// A canister with a handle and a cap that can be grasped.
 Scene randomJug(CounterRandom& random);
-/// Its bail stands up, with a grip in the middle.
+/// Its bail stands upright and has a grip in the middle.
 Scene randomBucket(CounterRandom& random);
 Scene randomSponge(CounterRandom& random);
 

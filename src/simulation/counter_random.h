@@ -7,22 +7,22 @@
 namespace grasp_affordances
 {
 
-/// What random numbers are drawn for; each use has its own, whatever the others draw.
+/// Purpose of random numbers. Each purpose has its own stream, independent of the others.
 enum class RandomStream : std::uint64_t
 {
-  placement,    ///< of the objects and the camera of a scene
-  disparity,    ///< noise of the matching
+  placement,    ///< sizes and places of the objects and the camera of a scene
+  disparity,    ///< noise of the stereo matching
   edge_column,  ///< jitter of depth edges along the rows
-  edge_row,     ///< and along the columns
-  edge_loss,    ///< what is not measured at depth edges
-  reflection,   ///< what is not measured for lack, or excess, of light
-  transparency  ///< what is measured of a transparent surface
+  edge_row,     ///< jitter of depth edges along the columns
+  edge_loss,    ///< missing pixels at depth edges
+  reflection,   ///< missing pixels where too little or too much light returns
+  transparency  ///< which surface is measured at a transparent one
 };
 
-/// Counter-based random numbers (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011): the n-th draw
-/// is a hash of (seed, stream, index, n), so that pixels can be drawn in any order by any number of threads. Only
-/// integer and exactly rounded floating-point arithmetic: the same numbers on every platform, unlike the distributions
-/// of the standard library.
+/// Counter-based random numbers (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011). The n-th draw
+/// is a hash of (seed, stream, index, n), so that any number of threads can draw for pixels in any order. All
+/// arithmetic is on integers or is exactly rounded. The numbers are therefore the same on every platform, unlike those
+/// of the standard library's distributions.
 class CounterRandom
 {
 public:
@@ -41,8 +41,8 @@ public:
 
   bool coin() { return (bits() >> 63) != 0; }
 
-  /// Mean 0, variance 1, as the sum of twelve uniform numbers: no logarithm, whose last digits depend on the platform.
-  /// Its tails end at 6 standard deviations.
+  /// Approximately normal, with mean 0 and variance 1: the sum of twelve uniform numbers. No logarithm is used, because
+  /// its last digits depend on the platform. The tails end at 6 standard deviations.
   double normal()
   {
     std::int64_t sum = 0;

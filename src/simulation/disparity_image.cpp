@@ -46,7 +46,7 @@ Eigen::Vector3d DisparityImage::normal(Pixel p) const
   return {x, y, (*this)(p)-x * r.x() - y * r.y()};
 }
 
-/// Per pixel, on the side where it is less: that of the same surface.
+/// Change of disparity per pixel, from the neighbor with the smaller change: that one is on the same surface.
 double DisparityImage::gradient(Pixel p, Pixel before, Pixel after) const
 {
   const double here = (*this)(p);

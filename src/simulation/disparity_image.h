@@ -16,7 +16,7 @@ struct Pixel
   int row;
 };
 
-/// True disparities, f b / z in pixels, of the surfaces in a picture; 0 where there are none.
+/// True disparities, f b / z in pixels, of the surfaces in an image; 0 where there is no surface.
 class DisparityImage
 {
 public:
@@ -30,18 +30,18 @@ public:
   float operator()(Pixel p) const { return disparity_[index(p)]; }
   const float* row(int row) const { return &disparity_[index({0, row})]; }
 
-  /// Whether a depth edge parts two pixels: their disparities differ by a pixel per pixel on the way, or more, as on a
-  /// surface that is edge-on to the projector.
+  /// Whether a depth edge separates two pixels: their disparities differ by at least one pixel per pixel between them.
+  /// On a surface that is edge-on to the projector they differ by just that.
   bool parted(Pixel a, Pixel b) const;
 
-  /// Whether a depth edge parts a pixel from one that is up to `reach` pixels away along a row or column.
+  /// Whether a depth edge separates a pixel from another one up to `reach` pixels away along its row or column.
   bool edgeWithin(int reach, Pixel p) const;
 
   /// The point on a pixel's ray with a depth of 1, in the optical frame.
   Eigen::Vector3d ray(Pixel p) const;
 
-  /// Normal of the surface that a pixel shows, away from the camera and of any length, from its neighbours: in the
-  /// image of a plane, disparity is a linear function of column and row.
+  /// Normal of the surface that a pixel shows. It points away from the camera and has any length. It is computed from
+  /// the neighbouring pixels: on a plane, disparity is a linear function of column and row.
   Eigen::Vector3d normal(Pixel p) const;
 
 private:

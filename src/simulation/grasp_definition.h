@@ -5,12 +5,12 @@
 namespace grasp_affordances
 {
 
-/// What counts as an enveloping grasp affordance (paper, section V: "Methods and Results").
+/// Definition of an enveloping grasp affordance (paper, section V: "Methods and Results").
 struct GraspDefinition
 {
-  double capture_radius = 0.026;  ///< m; the surface's radius is less
-  double clearance = 0.008;       ///< m; free all around the surface, on its hidden sides too
-  double min_length = 0.03;       ///< m; along the axis
+  double capture_radius = 0.026;  ///< m; upper limit of the surface's radius
+  double clearance = 0.008;       ///< m; free space required all around the surface, also on its hidden sides
+  double min_length = 0.03;       ///< m; least length along the axis
 };
 
 constexpr std::uint32_t kNotGraspable = 0;

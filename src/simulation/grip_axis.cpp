@@ -16,13 +16,13 @@ namespace
 using Axes = std::vector<GripAxis>;
 constexpr auto kElliptic = GripAxis::Section::elliptic;
 
-/// Half the chord of a circle at this distance from its centre.
+/// Half the length of a circle's chord at a distance from the centre.
 double halfChord(double radius, double distance)
 {
   return std::sqrt(std::max(0.0, radius * radius - distance * distance));
 }
 
-/// Frame whose z, x and y axes are the axes k, k + 1 and k + 2, counted round.
+/// Frame whose z, x and y axes are the axes k, k + 1 and k + 2, modulo 3.
 Eigen::Isometry3d frameOfAxis(int k)
 {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
@@ -42,7 +42,7 @@ std::array<int, 3> longestFirst(const Eigen::Vector3d& sizes)
   return order;
 }
 
-/// A round axis along z with radii between stations.
+/// An axis along z with round sections. Radii are interpolated between stations.
 Axes axes(const Revolution& solid, const Eigen::Matrix3d&)
 {
   const std::vector<Revolution::Station>& profile = solid.profile;

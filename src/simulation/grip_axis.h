@@ -10,8 +10,9 @@
 namespace grasp_affordances
 {
 
-/// A line that a hand would close around: an axis of a solid, straight or bent, with the solid's sections at right
-/// angles to it. Everything is in the solid's frame. A place on the axis is its distance from the axis' start, in m.
+/// A line that a hand can close around: an axis of a solid, straight or bent, and the solid's cross-sections at right
+/// angles to it. Everything is in the solid's frame. A place on the axis is given by the distance from the start of the
+/// axis, in m.
 class GripAxis
 {
 public:
@@ -21,18 +22,19 @@ public:
     rectangular
   };
 
-  /// Along z of the given frame, whose origin is the middle of the axis. The sections are aligned with x and y and have
-  /// these half sizes times `scale(z)`, which has its maxima at the axis' ends and at those of `peaks` (values of z).
+  /// A straight axis along z of the given frame, whose origin is the middle of the axis. The sections are aligned with
+  /// x and y. Their half sizes are the given ones times `scale(z)`. Maxima of that function are at the ends of the axis
+  /// and at `peaks` (values of z).
   static GripAxis straight(const Eigen::Isometry3d& T_shape_axis, double length, Section section,
                            const Eigen::Vector2d& half_sizes, std::function<double(double)> scale = nullptr,
                            const std::vector<double>& peaks = {});
   static GripAxis along(const TorusArc& arc);
 
   double length() const { return length_; }
-  bool closed() const { return closed_; }  ///< the end is the start
+  bool closed() const { return closed_; }  ///< the axis ends where it starts
   Section section() const { return section_; }
 
-  /// The section's frame: origin on the axis, z along it, x and y the directions of its half sizes.
+  /// Frame of a section: origin on the axis, z along it, x and y in the directions of its half sizes.
   Eigen::Isometry3d sectionFrame(double place) const;
   Eigen::Vector2d halfSizes(double place) const;
   Eigen::Vector2d largestHalfSizes(double from, double to) const;
@@ -42,7 +44,7 @@ public:
 
 private:
   Eigen::Isometry3d T_shape_axis_ = Eigen::Isometry3d::Identity();
-  double bend_radius_ = 0.0;  ///< 0: straight; else of an arc about z of that frame, with its middle on x
+  double bend_radius_ = 0.0;  ///< 0: straight; else the radius of an arc about that frame's z, with its middle on x
   double length_ = 0.0;
   bool closed_ = false;
   Section section_ = Section::elliptic;
@@ -54,8 +56,8 @@ private:
 /// Distance from the middle of a section to its outline.
 double outlineRadius(GripAxis::Section section, const Eigen::Vector2d& half_sizes, const Eigen::Vector2d& direction);
 
-/// The axes of a solid, one for most. A box has three and an ellipsoid its principal ones, the longest first; a sphere
-/// the scene's vertical and two horizontal ones; a half-space none.
+/// The axes of a solid. Most solids have one. A box and an ellipsoid have three, the longest first. A sphere has the
+/// scene's vertical and two horizontal axes. A half-space has none.
 std::vector<GripAxis> gripAxes(const Primitive& primitive, const Eigen::Matrix3d& R_scene_shape);
 
 }  // namespace grasp_affordances

@@ -13,7 +13,7 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kCellLength = 0.004;  ///< m, about
+constexpr double kCellLength = 0.004;  ///< m, approximate
 
 enum class Verdict
 {
@@ -32,11 +32,11 @@ struct CellEnd
 struct Cell
 {
   std::size_t part;
-  std::size_t index;  ///< among the part's cells, from the start of its axis
+  std::size_t index;  ///< number within the part's cells, from the start of its axis
   double from, to;
   const GripAxis* axis;
   CellEnd first, last;  ///< in the order of the run
-  double length;        ///< that it adds to a run
+  double length;        ///< m, length that it adds to a run
   double margin;
   Verdict verdict;
 };
@@ -67,10 +67,10 @@ Verdict sectionFits(const Cell& cell, double capture_radius)
   return std::min(below(radius, capture_radius, cell.margin), flat_side);
 }
 
-/// Maximal runs of cells that are at least so good, and long enough for it.
+/// Maximal runs of cells that have at least a given quality, and that are long enough.
 std::vector<Run> runs(const std::vector<Cell>& cells, bool closed, Verdict least, double min_length)
 {
-  // A closed axis is cut before a cell that is not good enough, if there is one.
+  // On a closed axis the search starts at a cell that is not good enough, if there is one.
   std::size_t cut = 0;
   if (closed) {
     while (cut < cells.size() && cells[cut].verdict >= least)
@@ -129,14 +129,14 @@ Grip gripOf(const Scene& scene, const Run& run)
   return grip;
 }
 
-/// What was found along an axis.
+/// Runs that were found along an axis.
 struct Found
 {
   std::vector<Run> grips;
-  std::vector<Run> doubtful;  ///< the cells of grips may be among them
+  std::vector<Run> doubtful;  ///< may contain cells of grips
 };
 
-/// Searches the axes of parts that follow one another for grips.
+/// Searches for grips along the axes of consecutive parts.
 class GripSearch
 {
 public:
@@ -178,7 +178,7 @@ public:
     for (const PartAxis& axis : axes)
       chain.push_back(axis.part);
 
-    // Clearance is sought only where the rest of the definition may hold.
+    // Clearance takes long to compute: only for cells that may meet the rest of the definition.
     std::vector<bool> candidate(cells.size(), false);
     for (const Run& run : runs(cells, closed, Verdict::maybe, definition_.min_length)) {
       for (const Cell* cell : run)

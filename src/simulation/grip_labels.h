@@ -15,31 +15,37 @@
 namespace grasp_affordances
 {
 
-/// A stretch of one part or of several in a chain that a hand can close around.
+/// A section of a part, or of several parts of a chain, that a hand can close around.
 struct Grip
 {
   std::uint32_t label = 0;            ///< 1..254
-  std::vector<std::size_t> parts;     ///< that it lies on, in order
-  double radius = 0.0;                ///< m, of the surface where it is widest
+  std::vector<std::size_t> parts;     ///< parts that it lies on, in order
+  double radius = 0.0;                ///< m, largest radius of the surface
   double length = 0.0;                ///< m, along its axis
   std::vector<Eigen::Vector3d> axis;  ///< m, points along its axis, in the scene's frame
   std::vector<double> radii;          ///< m, of the surface at these points: half the section's larger size
-  /// Of a ball, which can be gripped about any axis through it, in the scene's frame. A ball is a solid that tapers
-  /// to less than half its width at both ends of an axis no longer than one and a half times that width.
+  /// Centre of a ball, in the scene's frame; empty for other grips. A ball can be gripped about any axis through it. It
+  /// is a solid whose axis is at most 1.5 times as long as the solid is wide, and that tapers to less than half of its
+  /// width at both ends of the axis.
   std::optional<Eigen::Vector3d> ball_center;
 };
 
-/// How far, in m, a radius, clearance or length has to be from its threshold to be certain, at a point of the scene.
+/// The margin, in m, at a point of the scene. A radius, clearance or length is certain if it differs from its threshold
+/// by at least the margin.
 using MarginAt = std::function<double(const Eigen::Vector3d& point_scene)>;
 
-/// Where a scene's parts can be gripped, whoever sees them.
+/// Where a hand can grip the parts of a scene, whether a camera sees them or not.
 ///
-/// The axis of every part is cut into cells of about 4 mm, and each is judged by the largest radius of its surface and
-/// its clearance. Runs of good cells that are long enough are grips; a chain's parts are one axis, on which a stretch
-/// inside an earlier part adds no length. Doubtful are cells of runs that would be a grip if radius, clearance and
-/// length erred by the margin, round ones that fit in but are too flat (their radius of curvature exceeds the capture
-/// radius), and rectangular ones that fit in. Of a part's axes the first with a grip counts, else the first with
-/// something doubtful.
+/// The axis of every part is divided into cells of about 4 mm. A cell is good if the largest radius of its surface and
+/// its clearance meet the definition. A long enough run of good cells is a grip. The parts of a chain have one common
+/// axis; where a part lies inside an earlier one, its cells add no length.
+///
+/// These cells are doubtful:
+///  - cells of a run that would be a grip if radius, clearance and length changed by the margin;
+///  - round cells that fit into the hand but are too flat: their radius of curvature exceeds the capture radius;
+///  - rectangular cells that fit into the hand.
+///
+/// Of several axes of a part, the first one with a grip counts, or else the first one with doubtful cells.
 class GripLabels
 {
 public:
@@ -48,10 +54,10 @@ public:
 
   const std::vector<Grip>& grips() const { return grips_; }  ///< by label
 
-  /// Whether points of a part may have another label than 0: if not, all have 0.
+  /// Whether points of a part may have a label other than 0.
   bool any(std::size_t part) const { return parts_[part].has_value(); }
 
-  /// Label of a point of a part's surface: that of the nearest cell.
+  /// Label of a point on a part's surface: the label of the nearest cell.
   std::uint32_t label(std::size_t part, const Eigen::Vector3d& point_shape) const;
 
 private:
@@ -61,7 +67,7 @@ private:
     std::vector<std::uint32_t> labels;
   };
 
-  std::vector<std::optional<Cells>> parts_;  ///< none for parts on whose axis, or whose chain's, nothing was found
+  std::vector<std::optional<Cells>> parts_;  ///< empty for a part if nothing was found on its axis or its chain's axis
   std::vector<Grip> grips_;
 };
 

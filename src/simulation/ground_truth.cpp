@@ -15,9 +15,9 @@ namespace
 {
 
 constexpr double kLeastMargin = 0.001;         ///< m
-constexpr double kRaysPerAffordance = 2000.0;  ///< at most about so many decide on an occluded share
+constexpr double kRaysPerAffordance = 2000.0;  ///< approximate largest number of rays for an occluded share
 
-/// Of the ray whose points have a depth of their parameter.
+/// Direction of the ray through a place in the image. Its z is 1, so that the ray's parameter is the depth.
 Eigen::Vector3d directionThrough(const PinholeIntrinsics& camera, double column, double row)
 {
   return {(column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0};
@@ -45,7 +45,7 @@ std::vector<std::uint32_t> labelsOfPixels(const View& view, const Frame& frame, 
   return result;
 }
 
-/// The pixels that spheres along a grip's axis can project to.
+/// The pixels to which spheres along a grip's axis can project.
 Eigen::AlignedBox2d imageOf(const Grip& grip, const Eigen::Isometry3d& T_camera_scene, const XtionModel& model)
 {
   const PinholeIntrinsics& camera = model.intrinsics;
@@ -66,7 +66,7 @@ Eigen::AlignedBox2d imageOf(const Grip& grip, const Eigen::Isometry3d& T_camera_
   return box.intersection(image);
 }
 
-/// Where a ray of the camera first meets a grip, as if nothing else were there, not even the rest of its parts.
+/// Where a ray of the camera first meets a grip, if there were nothing else, not even the rest of the grip's parts.
 double firstHit(const View& view, const GripLabels& labels, const Grip& grip, const Eigen::Vector3d& direction)
 {
   constexpr double kPastSurface = 1e-9;

@@ -60,7 +60,7 @@ View far(std::uint64_t seed)
   return arrangement.view();
 }
 
-/// Turned so that its front points up, and lifted onto z = 0.
+/// Turns an object so that its front points up, and places it on z = 0.
 Scene laidDown(const Scene& object)
 {
   const Eigen::Isometry3d turn = turned(-0.5 * kPi, Eigen::Vector3d::UnitY());
@@ -87,7 +87,7 @@ View clutter(std::uint64_t seed)
   Arrangement arrangement(stage, random);
   arrangement.setGap(0.0);
 
-  // Boxes first, to be stacked upon; then what is large, while there is room.
+  // Boxes first, because objects are stacked on them; then large objects, while there is room.
   const Spot anywhere{{0.0, 0.03}, {0.31, 0.22}};
   std::vector<Spot> spots = {anywhere, anywhere};
   int objects = 0;
@@ -125,7 +125,7 @@ View clutter(std::uint64_t seed)
   return arrangement.view();
 }
 
-/// Bars on a wall over things that stand in front of it; or a table and its edges.
+/// Bars on a wall, above objects that stand in front of it; or a table with visible edges.
 View distractors(std::uint64_t seed)
 {
   CounterRandom random(seed, RandomStream::placement);

@@ -136,7 +136,7 @@ Scene apple(double radius)
   constexpr int bands = 12;
   Revolution flesh;
   for (int band = 0; band <= bands; ++band) {
-    // A little short of the poles, where blossom and stalk leave it flat.
+    // The profile ends before the poles: blossom and stalk leave flat ends.
     const double latitude = 80.0 * kDegree * (2.0 * band / bands - 1.0);
     flesh.profile.push_back({radius * std::sin(latitude), radius * std::cos(latitude)});
   }
@@ -161,7 +161,7 @@ Scene randomBananaOnBlock(CounterRandom& random)
   scene.beginObject("block");
   scene.add(Box{{0.1, 0.12, block_height}}, at(0.0, 0.0, 0.5 * block_height));
 
-  // About its middle it lies on the block's edge at y = 0.06.
+  // Near its middle it lies on the block's edge at y = 0.06.
   scene.beginObject("banana");
   const Eigen::Isometry3d T = at(-bend, 0.05, block_height + tube);
   const auto addEnd = [&](double side, double length) {
@@ -253,7 +253,7 @@ Scene randomShelf(CounterRandom& random)
 namespace
 {
 
-/// A bar and what holds it, on a wall at x.
+/// A bar and its mounts, on a wall at x.
 void addCloseBar(Scene& scene, double x, double z, double half_length, double clearance)
 {
   constexpr double radius = 0.01;

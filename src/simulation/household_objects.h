@@ -6,11 +6,12 @@
 namespace grasp_affordances
 {
 
-// Things about the house. Scenes of one object each, in a size of their own. The frame of each has its origin on the
-// support below its middle, z up; what has a front or a handle has it towards +x. Metres.
+// Household objects. Each function returns a scene with one object of random size. Its frame has the origin on the
+// supporting surface below the object's middle, and z up; a front or handle points towards +x. All lengths are in
+// metres.
 
 Scene randomLamp(CounterRandom& random);
-/// Lies on its bristles; its handle hovers.
+/// Lies on its bristles, so that its handle is above the surface.
 Scene randomHairBrush(CounterRandom& random);
 /// Stands on its head.
 Scene randomHammer(CounterRandom& random);
@@ -30,7 +31,7 @@ Scene randomLotionBottle(CounterRandom& random);
 Scene apple(double radius);
 /// Too wide to be grasped.
 Scene randomApple(CounterRandom& random);
-/// Lies on a block that one of its ends stands out from: two objects.
+/// Two objects: it lies on a block, and one of its ends extends over the block's edge.
 Scene randomBananaOnBlock(CounterRandom& random);
 /// Its handle is on top.
 Scene randomSuitcase(CounterRandom& random);
@@ -42,7 +43,7 @@ Scene randomBackpack(CounterRandom& random);
 Scene randomLongBox(CounterRandom& random);
 /// A board on two others.
 Scene randomShelf(CounterRandom& random);
-/// A bar along y, too close for a finger to the wall that it is mounted on: the plane x = 0.
+/// A bar along y on a wall, the plane x = 0. It is so close to the wall that no finger fits between.
 Scene randomCloseBar(CounterRandom& random);
 /// The same on the front of a block.
 Scene randomBlockWithCloseBar(CounterRandom& random);

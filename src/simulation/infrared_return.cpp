@@ -7,23 +7,23 @@ namespace grasp_affordances
 namespace
 {
 
-// Each number varies over the picture, in patches as large as a matching window; docs/simulation.md has the sources.
+// Each quantity varies over the image, in patches of the size of a matching window. Sources: docs/simulation.md.
 constexpr double kPatch = 6.0;  // px
 
-// Cosine of the angle of incidence at which the matching breaks down: 76 degrees, within 71 and 81 for 95 % of them.
+// Cosine of the angle of incidence at which the matching fails: 76 degrees; between 71 and 81 degrees for 95 %.
 constexpr double kBreakdown = 0.242;
 constexpr double kBreakdownDeviation = 0.042;
 constexpr double kSteepestSafe = 0.5;  // 6 standard deviations above
 
-// Depth at which a dark surface seen at right angles returns just enough light, and the deviation of what is enough.
+// Depth at which a dark surface, seen at right angles, returns just enough light; and the deviation of that limit.
 constexpr double kDarkReach = 1.1;  // m
 constexpr double kDarkDeviation = 0.4;
 
-// Sine of the angle between the surface's normal and that of the mirror which would show the projector to the camera:
-// nearer than that (10 degrees), a shiny surface is too bright.
+// A mirror that reflects the projector into the camera has a certain normal. A shiny surface is too bright if the angle
+// between its normal and that one is less than 10 degrees. This is the sine of that angle.
 constexpr double kMirror = 0.17;
-constexpr double kMirrorDeviation = 0.3;  // of one
-constexpr double kTooDull = 1.3;          // patches beyond send too much of the light elsewhere: 10 %
+constexpr double kMirrorDeviation = 0.3;  // relative to the limit
+constexpr double kTooDull = 1.3;          // above, a patch reflects too much light elsewhere: 10 % of the patches
 
 }  // namespace
 
@@ -46,7 +46,7 @@ bool InfraredReturn::suffices(Surface surface, const Eigen::Vector3d& point, con
     return false;
   if (surface == Surface::dark) {
     const double reach = kDarkReach / point.z();
-    return cosine * reach * reach > 1.0 + kDarkDeviation * patch;  // Lambert's law, and the inverse square's
+    return cosine * reach * reach > 1.0 + kDarkDeviation * patch;  // Lambert's cosine law and the inverse-square law
   }
   if (surface == Surface::shiny) {
     const Eigen::Vector3d mirror = (projector_ - point).normalized() - point.normalized();

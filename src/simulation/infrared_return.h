@@ -10,7 +10,7 @@
 namespace grasp_affordances
 {
 
-/// Decides where the projector's light comes back strongly enough, and not too strongly, to be matched.
+/// Decides where enough of the projector's light returns to be matched, and not too much of it.
 class InfraredReturn
 {
 public:
@@ -18,8 +18,8 @@ public:
   InfraredReturn(std::uint64_t seed, double baseline);
 
   /// @param point of the surface, in the optical frame; m
-  /// @param normal of the surface, either way and of any length but zero
-  /// @param column,row of the pixel that sees it: neighbours share their fate
+  /// @param normal of the surface, in either direction, of any length but zero
+  /// @param column,row of the pixel that sees the point; the results of neighbouring pixels are correlated
   bool suffices(Surface surface, const Eigen::Vector3d& point, const Eigen::Vector3d& normal, std::uint32_t column,
                 std::uint32_t row) const;
 

@@ -9,7 +9,7 @@
 namespace grasp_affordances
 {
 
-// What objects are made of. Each becomes part of the scene's last object. Metres.
+// Building blocks of objects. Each function adds parts to the scene's last object. All lengths are in metres.
 
 /// An open vessel whose floor, as thick as its wall, stands on z = 0 of its frame.
 void addVessel(Scene& scene, const Eigen::Isometry3d& T_scene_vessel, const Frustum& wall,
@@ -23,7 +23,7 @@ std::size_t addBar(Scene& scene, const Eigen::Vector3d& from, const Eigen::Vecto
 std::size_t addTaper(Scene& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double from_radius,
                      double to_radius, Surface surface = Surface::diffuse);
 
-/// Where a handle is fixed, and which way it stands out.
+/// Where a handle is attached, and the direction in which it stands out.
 struct HandleFeet
 {
   Eigen::Vector3d from;

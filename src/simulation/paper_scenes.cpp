@@ -16,7 +16,7 @@ constexpr double kToTheRight = 0.0;
 constexpr double kAway = 90.0;
 constexpr double kToTheCamera = -90.0;
 
-/// Puts a broom onto the floor so that it leans on a wall.
+/// Places a broom on the floor so that it leans on a wall.
 void leanBroom(Arrangement& arrangement, CounterRandom& random, double x, double wall)
 {
   const double reach = random.uniform(0.06, 0.1);
@@ -75,7 +75,7 @@ View cleaning2(std::uint64_t seed)
   arrangement.place(randomSprayBottle(random), {{0.01, 0.12}, {0.02, 0.02}, kToTheCamera, 80.0});
   arrangement.place(randomDustPan(random), {{0.17, 0.01}, {0.02, 0.02}, -75.0, 20.0});
   arrangement.place(randomBananaOnBlock(random), {{-0.21, -0.08}, {0.02, 0.02}});
-  // Round and small enough for the margin of the ground truth at this range.
+  // Round and small enough to be certain, not doubtful, in the ground truth at this range.
   arrangement.place(apple(random.uniform(0.0262, 0.0267)), {{-0.01, -0.17}, {0.03, 0.02}});
   return arrangement.view();
 }

@@ -7,7 +7,7 @@
 namespace grasp_affordances
 {
 
-/// The ten scenes of the paper (figure 5), by name and, as far as it tells, by content.
+/// The ten scenes of the paper (figure 5). Their names are the paper's; so are their contents, as far as it gives them.
 std::vector<NamedScene> paperScenes();
 
 }  // namespace grasp_affordances

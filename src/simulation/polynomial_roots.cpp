@@ -7,7 +7,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Polynomial of degree N, coefficients in ascending powers.
+/// Polynomial of degree N; coefficients in the order of ascending powers.
 template <std::size_t N>
 struct Polynomial
 {
@@ -30,8 +30,8 @@ struct Polynomial
   }
 };
 
-/// Root of a polynomial that is monotone on [a, b] and has different signs at its ends: Newton's method, with bisection
-/// for steps that would leave the bracket.
+/// Root of a polynomial that is monotone on [a, b] and has different signs at the ends. Newton's method; a step that
+/// would leave the bracket is replaced by bisection.
 template <std::size_t N>
 double bracketedRoot(const Polynomial<N>& f, const Polynomial<N - 1>& slope, double a, double b)
 {

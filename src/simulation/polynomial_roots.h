@@ -16,10 +16,12 @@ struct QuarticRoots
   const double* end() const { return values.data() + count; }
 };
 
-/// The roots of t^4 + p t^2 + q t + s in [low, high], without those where the polynomial only touches zero.
+/// The roots of t^4 + p t^2 + q t + s in [low, high]. Roots where the polynomial touches zero without a change of sign
+/// are left out.
 ///
-/// Between the roots of its derivative a polynomial is monotone, so that a sign change brackets each root; the roots of
-/// the derivative are found the same way. Unlike the closed form nothing cancels when roots are close together.
+/// A polynomial is monotone between the roots of its derivative, so that a change of sign brackets each root. The roots
+/// of the derivative are found in the same way. Unlike the closed form, this does not lose digits to cancellation when
+/// roots are close together.
 QuarticRoots depressedQuarticRoots(double p, double q, double s, double low, double high);
 
 }  // namespace grasp_affordances

@@ -73,7 +73,7 @@ bool isSolid(const Revolution& r)
     if (!std::isfinite(z) || !ascends || !(positive(radius) || pointed))
       return false;
   }
-  // A single piece that is pointed at both ends is a line.
+  // A single piece with a radius of 0 at both ends is a line, not a solid.
   return r.profile.size() > 2 || (r.profile.size() == 2 && r.profile[0].radius + r.profile[1].radius > 0.0);
 }
 

@@ -11,14 +11,15 @@
 namespace grasp_affordances
 {
 
-/// The points origin + t direction with t > 0. The direction has any length but zero.
+/// The points origin + t * direction with t > 0. The direction has any length but zero.
 struct Ray
 {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;
 };
 
-// Analytic solids, each centred at the origin of its own frame; what has an axis has it along z. Metres.
+// Analytic solids. Each is centred at the origin of its own frame; its axis, if it has one, is z. All lengths in
+// metres.
 
 struct Box
 {
@@ -45,15 +46,15 @@ struct Frustum
   double wall = 0.0;  ///< thickness, measured horizontally, of the wall of an open tube; 0: a solid frustum
 };
 
-/// Arc of a torus, from -half_angle to +half_angle about z, with its middle on the x axis and flat ends.
+/// Arc of a torus about z, from -half_angle to +half_angle. Its middle is on the x axis; its ends are flat.
 struct TorusArc
 {
-  double major_radius;  ///< of the circle in the xy plane that the tube follows
+  double major_radius;  ///< radius of the tube's centre line, a circle in the xy plane
   double tube_radius;   ///< less than the major radius
   double half_angle;    ///< rad, in (0, pi]; pi: a whole torus
 };
 
-/// Everything below its xy plane, without end: a floor, a table top or a wall.
+/// The half-space below its xy plane: a floor, a table top or a wall.
 struct HalfSpace
 {
 };
@@ -77,7 +78,7 @@ struct EllipticCylinder
   double height;
 };
 
-/// A solid of revolution about z: the frusta between consecutive stations of its profile.
+/// A solid of revolution about z. It consists of the frusta between consecutive stations of its profile.
 struct Revolution
 {
   struct Station
@@ -91,19 +92,19 @@ struct Revolution
 using Primitive =
     std::variant<Box, Sphere, Cylinder, Frustum, TorusArc, HalfSpace, Ellipsoid, Capsule, EllipticCylinder, Revolution>;
 
-/// @throw std::invalid_argument for dimensions that describe no solid.
+/// Checks a solid. @throw std::invalid_argument if its dimensions do not describe a solid.
 void validate(const Primitive& primitive);
 
-/// Radius of the smallest sphere about the origin that is known to hold the solid; infinite for a half-space.
+/// Radius of a sphere about the origin that contains the solid; infinite for a half-space.
 double boundingRadius(const Primitive& primitive);
 
-/// A box in the solid's frame that holds it; unbounded for a half-space.
+/// A box in the solid's frame that contains it; unbounded for a half-space.
 Eigen::AlignedBox3d boundingBox(const Primitive& primitive);
 
 constexpr double kNoIntersection = std::numeric_limits<double>::infinity();
 
-/// The smallest t > 0 at which the ray crosses the surface, inwards or outwards; kNoIntersection where there is none.
-/// The solid must be valid, and the ray in its frame.
+/// The smallest t > 0 at which the ray crosses the surface, inwards or outwards; kNoIntersection if it does not. The
+/// solid must be valid. The ray must be in the solid's frame.
 double intersect(const Primitive& primitive, const Ray& ray);
 
 /// The same for `count` rays from one point, the i-th in the direction first_direction + i * step; writes t[0], ...,
@@ -111,7 +112,7 @@ double intersect(const Primitive& primitive, const Ray& ray);
 void intersect(const Primitive& primitive, const Eigen::Vector3d& origin, const Eigen::Vector3d& first_direction,
                const Eigen::Vector3d& step, std::size_t count, double* t);
 
-/// Whether a point in the solid's frame lies in its material. Solid must be valid.
+/// Whether a point, in the solid's frame, is inside its material. The solid must be valid.
 bool contains(const Primitive& primitive, const Eigen::Vector3d& point);
 
 }  // namespace grasp_affordances

@@ -13,7 +13,7 @@ namespace
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The part of a ray's line inside a convex solid.
+/// The interval of t in which a ray's line is inside a convex solid.
 struct Interval
 {
   double enter = -kInfinity;
@@ -27,7 +27,7 @@ Interval intersection(const Interval& a, const Interval& b)
   return {std::max(a.enter, b.enter), std::min(a.exit, b.exit)};
 }
 
-/// The shortest interval that holds both.
+/// The shortest interval that contains both.
 Interval hull(const Interval& a, const Interval& b)
 {
   return {std::min(a.enter, b.enter), std::max(a.exit, b.exit)};
@@ -35,7 +35,7 @@ Interval hull(const Interval& a, const Interval& b)
 
 constexpr Interval kNowhere{kInfinity, -kInfinity};
 
-/// Where the interval's ends lie after t_min, the first of them.
+/// The first end of the interval after t_min.
 double firstCrossing(const Interval& inside, double t_min)
 {
   if (inside.empty())
@@ -45,7 +45,7 @@ double firstCrossing(const Interval& inside, double t_min)
   return inside.exit > t_min ? inside.exit : kNoIntersection;
 }
 
-/// low <= coordinate <= high
+/// Where low <= coordinate <= high.
 Interval slab(double low, double high, double origin, double direction)
 {
   if (direction == 0.0)
@@ -55,7 +55,7 @@ Interval slab(double low, double high, double origin, double direction)
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// a t^2 + 2 b t + c <= 0 for an `a` of at least 0
+/// Where a t^2 + 2 b t + c <= 0, for a >= 0.
 Interval insideQuadric(double a, double b, double c)
 {
   const double discriminant = b * b - a * c;
@@ -75,7 +75,8 @@ Interval insideFrustum(const Revolution::Station& bottom, const Revolution::Stat
   if (between_ends.empty())
     return kNowhere;
 
-  // Inside the double cone where a t^2 + 2 b t + c <= 0; its radius along the ray is radius + widening t.
+  // The line is inside the double cone where a t^2 + 2 b t + c <= 0. The cone's radius along the ray is
+  // radius + widening * t.
   const double slope = (top.radius - bottom.radius) / (top.z - bottom.z);
   const double middle = 0.5 * (bottom.z + top.z);
   const double radius = 0.5 * (bottom.radius + top.radius) + slope * (ray.origin.z() - middle);
@@ -95,12 +96,13 @@ Interval insideFrustum(const Revolution::Station& bottom, const Revolution::Stat
   const auto [first, second] = std::minmax(t1, t2);
   if (a >= 0.0)
     return intersection(between_ends, {first, second});
-  // The ray is steeper than the cone: it is inside before the first root and after the second, once in each nappe.
+  // The ray is steeper than the cone. It is inside before the first root and after the second, each time in another
+  // nappe.
   return intersection(between_ends, widening > 0.0 ? Interval{second, kInfinity} : Interval{-kInfinity, first});
 }
 
-// The first crossing after t_min. The rays' directions are unit vectors, and their origins the points of their lines
-// that are closest to the solid's origin.
+// These functions return the first crossing after t_min. A ray's direction must be a unit vector. Its origin must be
+// the point of its line that is closest to the solid's origin.
 
 double firstCrossing(const Sphere& sphere, const Ray& ray, double t_min)
 {
@@ -130,9 +132,9 @@ double firstCrossing(const Cylinder& cylinder, const Ray& ray, double t_min)
   return firstCrossing(Frustum{cylinder.radius, cylinder.radius, cylinder.height, cylinder.wall}, ray, t_min);
 }
 
-/// (|x|^2 + R^2 - r^2)^2 = 4 R^2 (x1^2 + x2^2) is a quartic in t, without cubic term because t counts from the point of
-/// the ray's line closest to the origin. Its roots and the planes of the arc's ends cut the line into pieces that are
-/// inside or outside as their midpoints are.
+/// (|x|^2 + R^2 - r^2)^2 = 4 R^2 (x1^2 + x2^2) is a quartic in t. It has no cubic term, because t = 0 is the point of
+/// the line closest to the origin. The roots and the planes of the arc's ends divide the line into pieces. A piece is
+/// inside if its midpoint is.
 double firstCrossing(const TorusArc& arc, const Ray& ray, double t_min)
 {
   const double reach = arc.major_radius + arc.tube_radius;
@@ -212,7 +214,8 @@ double firstCrossing(const EllipticCylinder& cylinder, const Ray& ray, double t_
   return firstCrossing(intersection(round, slab(-half, half, ray.origin.z(), ray.direction.z())), t_min);
 }
 
-/// The ray visits the pieces in order of z, and neighbours meet in one and the same t: intervals that touch are one.
+/// The ray passes the pieces in the order of z. Neighbouring pieces have exactly the same t where they meet, so that
+/// touching intervals are joined.
 double firstCrossing(const Revolution& revolution, const Ray& ray, double t_min)
 {
   const auto o = ray.origin.head<2>();
@@ -248,8 +251,8 @@ double firstCrossing(const Revolution& revolution, const Ray& ray, double t_min)
 template <typename Solid>
 double firstIntersection(const Solid& solid, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)
 {
-  // Unit direction, and t counted from the point closest to the solid's centre: numbers of the solid's own size,
-  // however far away the ray starts.
+  // A unit direction, and t = 0 at the point closest to the solid's centre. Numbers then have the solid's size, however
+  // far away the ray starts.
   const double length = direction.norm();
   Ray centred;
   centred.direction = direction / length;

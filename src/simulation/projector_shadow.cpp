@@ -10,7 +10,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Columns of the projector. They are added, and asked for, roughly from the right to the left.
+/// A set of the projector's columns. Columns are added and queried roughly from right to left.
 class CoveredColumns
 {
 public:

@@ -24,7 +24,7 @@ public:
   /// The rays start at the camera's origin.
   RayCaster(const Scene& scene, const Eigen::Isometry3d& T_scene_camera);
 
-  /// @param direction in the camera's frame, of any length but zero. With a z of 1, Hit::t is the depth.
+  /// @param direction in the camera's frame, of any length but zero. If its z is 1, Hit::t is the depth.
   std::optional<Hit> cast(const Eigen::Vector3d& direction) const;
 
 private:

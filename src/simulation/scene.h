@@ -11,17 +11,17 @@
 namespace grasp_affordances
 {
 
-/// What a surface does with the sensor's infrared light.
+/// How a surface reflects the sensor's infrared light.
 enum class Surface
 {
-  diffuse,      ///< is measured
-  dark,         ///< returns little light: not always measured, the less the farther and the more slanted
-  shiny,        ///< is not measured where it mirrors the projector into the camera, and not always elsewhere
-  transparent,  ///< seldom measured; mostly what lies behind it is
-  absorbing     ///< hides what lies behind it and is not measured itself
+  diffuse,      ///< always measured
+  dark,         ///< returns little light; less often measured if far away or slanted
+  shiny,        ///< not measured where it reflects the projector into the camera; often measured elsewhere
+  transparent,  ///< seldom measured; mostly the surface behind it is
+  absorbing     ///< not measured; hides what is behind it
 };
 
-/// A solid in its place.
+/// A solid with its pose in the scene.
 struct Part
 {
   Primitive shape;
@@ -30,20 +30,20 @@ struct Part
   std::size_t object;  ///< index into Scene::objects()
 };
 
-/// Solids that may overlap; what the sensor sees is their union. An object is made of one or several parts.
+/// A set of solids. They may overlap; the sensor sees their union. An object has one or several parts.
 class Scene
 {
 public:
-  /// Parts added from now on belong to a new object of this name. Names need not be unique.
+  /// Starts a new object. Parts that are added from now on belong to it. Names need not be unique.
   void beginObject(const std::string& name);
 
-  /// @return the part's index. @throw std::invalid_argument for a shape whose dimensions describe no solid.
+  /// @return the part's index. @throw std::invalid_argument if the shape's dimensions do not describe a solid.
   std::size_t add(const Primitive& shape, const Eigen::Isometry3d& T_scene_shape, Surface surface = Surface::diffuse);
 
-  /// Declares that parts follow one another, in this order, along one axis that a hand may close around anywhere: the
-  /// arc and the straights of a handle, or shoulder, neck and cap of a bottle. None may reach into a later one. A part
-  /// belongs to one chain at most; those in none stand for themselves. @throw std::invalid_argument for an unknown or
-  /// already joined part.
+  /// Joins parts to a chain: in the given order they follow one another along one axis, and a hand can close around any
+  /// place of it. Examples are the arc and the straight pieces of a handle, or shoulder, neck and cap of a bottle. No
+  /// part may extend into a later one. A part belongs to at most one chain.
+  /// @throw std::invalid_argument for a part that is unknown or already joined.
   void join(const std::vector<std::size_t>& parts);
 
   const std::vector<Part>& parts() const { return parts_; }
@@ -56,7 +56,7 @@ private:
   std::vector<std::vector<std::size_t>> chains_;
 };
 
-/// A scene and where it is seen from.
+/// A scene and the camera's pose.
 struct View
 {
   Scene scene;

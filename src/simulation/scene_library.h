@@ -11,7 +11,7 @@
 namespace grasp_affordances
 {
 
-/// A scene by name. Sizes, places and the camera vary with the seed.
+/// A scene with a name. Sizes, places and the camera's pose vary with the seed.
 struct NamedScene
 {
   std::string name;

@@ -19,9 +19,9 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr float kMetresPerUnit = 0.001F;  ///< of a depth image
-constexpr double kDeepest = 65.0;         ///< m; 16 bits hold 65.5
-constexpr int kLargestJitter = 2;         ///< px; promised in the header
+constexpr float kMetresPerUnit = 0.001F;  ///< unit of a depth image
+constexpr double kDeepest = 65.0;         ///< m; the limit of 16 bits is 65.5
+constexpr int kLargestJitter = 2;         ///< px; the header states this limit
 
 Frame emptyFrame(const XtionModel& model)
 {
@@ -44,12 +44,13 @@ void forEachPixel(const XtionModel& model, Task&& task)
   });
 }
 
-/// What the sensor matches: the transparent surface in some patches, nothing in others, and mostly what lies behind it.
+/// The surfaces that the sensor matches. Of a transparent surface: in some patches the surface itself, in others
+/// nothing, mostly what is behind it.
 SurfaceImage throughGlass(VisibleSurfaces visible, const XtionModel& model, std::uint64_t seed)
 {
   constexpr double patch_size = 12.0;    // px
-  constexpr double reflects = 1.5;       // beyond: 7 %
-  constexpr double loses_light = -0.84;  // below: 20 %
+  constexpr double reflects = 1.5;       // above this value: 7 % of the patches
+  constexpr double loses_light = -0.84;  // below this value: 20 % of the patches
   const PatchNoise patches(seed, RandomStream::transparency, patch_size);
 
   SurfaceImage& matched = visible.opaque;
@@ -68,7 +69,7 @@ SurfaceImage throughGlass(VisibleSurfaces visible, const XtionModel& model, std:
   return std::move(visible.opaque);
 }
 
-/// Depth edges where the matching window puts them.
+/// Depth edges as the matching window displaces them.
 class EdgeNoise
 {
 public:
@@ -80,7 +81,7 @@ public:
   {
   }
 
-  /// The pixel whose surface a pixel is matched with; itself, unless a depth edge is between them.
+  /// The pixel whose surface is measured in a given pixel. It is another pixel only near a depth edge.
   Pixel source(const DisparityImage& disparity, Pixel p) const
   {
     if (!disparity.edgeWithin(kLargestJitter, p))
@@ -96,7 +97,7 @@ public:
 
   bool loses(const DisparityImage& disparity, Pixel p) const
   {
-    constexpr double share = 0.5;  // beyond: 31 %
+    constexpr double share = 0.5;  // above this value: 31 % of the patches
     return disparity.edgeWithin(1, p) && loss_(p.column, p.row) > share;
   }
 
@@ -107,7 +108,7 @@ private:
   PatchNoise along_row_, along_column_, loss_;
 };
 
-/// Depth in millimetres as it is reported for a true depth, 0 where it is out of range.
+/// The reported depth in millimetres for a true depth; 0 if out of range.
 std::uint16_t reportedDepth(const XtionModel& model, double depth, double noise)
 {
   const double focal_baseline = model.intrinsics.fx * model.baseline;
@@ -118,7 +119,7 @@ std::uint16_t reportedDepth(const XtionModel& model, double depth, double noise)
   return in_range ? static_cast<std::uint16_t>(std::round(reported / kMetresPerUnit)) : 0;
 }
 
-/// The arithmetic of depth_image_proc, which makes clouds from the depth images of a real sensor.
+/// Computes the points as depth_image_proc does from the depth images of a real sensor.
 void setPoint(Cloud& cloud, std::size_t i, Pixel p, std::uint16_t depth)
 {
   const PinholeIntrinsics& camera = *cloud.intrinsics;

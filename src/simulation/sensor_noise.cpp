@@ -11,7 +11,7 @@ namespace grasp_affordances
 std::vector<float> windowedNoise(std::uint64_t seed, RandomStream stream, std::uint32_t width, std::uint32_t height,
                                  std::uint32_t window_width, std::uint32_t window_height)
 {
-  // Sums over the window's columns, of a picture that is larger by the window's rows.
+  // Sums over the window's columns. The image is larger by the window's rows.
   const std::uint32_t drawn_width = width + window_width - 1;
   const std::uint32_t drawn_height = height + window_height - 1;
   std::vector<float> row_sums(std::size_t{width} * drawn_height);

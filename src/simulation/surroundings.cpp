@@ -13,8 +13,8 @@ namespace
 {
 
 constexpr std::size_t kDirections = 120;
-constexpr std::array<double, 3> kSections = {1.0 / 6.0, 0.5, 5.0 / 6.0};  ///< between the places
-constexpr double kOffSurface = 1e-9;  ///< m; rays start this far outside, so as not to meet where they start
+constexpr std::array<double, 3> kSections = {1.0 / 6.0, 0.5, 5.0 / 6.0};  ///< shares of the way between the places
+constexpr double kOffSurface = 1e-9;  ///< m; rays start so far outside the surface, in order not to hit it
 
 std::array<Eigen::Vector2d, kDirections> directionsAround()
 {
@@ -26,7 +26,7 @@ std::array<Eigen::Vector2d, kDirections> directionsAround()
   return directions;
 }
 
-/// Of a ring or an arc; infinite for other solids.
+/// Width of the hole of a ring or an arc; infinite for other solids.
 double holeWidth(const Primitive& primitive)
 {
   const TorusArc* arc = std::get_if<TorusArc>(&primitive);

@@ -200,7 +200,7 @@ Scene randomBowlWithLadle(CounterRandom& random)
   scene.beginObject("bowl");
   addVessel(scene, Eigen::Isometry3d::Identity(), bowl);
 
-  // The stick starts above the bowl's floor and passes closely over the rim.
+  // The stick starts above the bowl's floor and passes just above the rim.
   const Eigen::Vector3d start(0.0, 0.0, bowl.wall + 0.026);
   const Eigen::Vector3d rim(bowl.top_radius - bowl.wall, 0.0, bowl.height);
   const Eigen::Vector3d to_rim = rim - start;

@@ -8,8 +8,8 @@
 namespace grasp_affordances
 {
 
-// Things to put on a table, made of primitives. The frame of each has its origin on the table below its middle, z up.
-// What has a front or a handle has it towards +x. Metres. Each becomes a new object of the scene.
+// Tableware, made of primitives. Each function adds a new object to the scene. The object's frame has the origin on the
+// table below its middle, and z up; a front or handle points towards +x. All lengths are in metres.
 
 /// An open mug with a handle towards +x.
 struct Mug
@@ -18,9 +18,9 @@ struct Mug
   double height = 0.115;
   double wall = 0.005;
   double floor = 0.008;
-  double handle_radius = 0.0425;  ///< of the circle that the handle's tube follows
+  double handle_radius = 0.0425;  ///< radius of the centre line of the handle's tube
   double handle_tube_radius = 0.0079;
-  double handle_clearance = 0.0315;  ///< between the mug and the inside of its handle, at the widest place
+  double handle_clearance = 0.0315;  ///< largest distance between the mug and the inside of its handle
 };
 void add(Scene& scene, const Eigen::Isometry3d& T_scene_mug, const Mug& mug);
 
@@ -46,7 +46,7 @@ struct MountedBar
 };
 void add(Scene& scene, const Eigen::Isometry3d& T_scene_bar, const MountedBar& bar);
 
-// Scenes of one object each, in a size of their own.
+// Each of these functions returns a scene with one object of random size.
 
 Scene randomMug(CounterRandom& random);
 /// Its neck and cap can be grasped.

@@ -26,13 +26,13 @@ struct Span
   }
 };
 
-/// Where a solid's bounding box projects to: the convex hull of its projected edges.
+/// The image area of a solid's bounding box: the convex hull of its projected edges.
 class Outline
 {
 public:
   Outline(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& T_camera_solid, const PinholeIntrinsics& camera)
   {
-    constexpr double nearest = 0.001;  // m; a box that comes nearer, or reaches behind the camera, is tried everywhere
+    constexpr double nearest = 0.001;  // m; for a box that is nearer, or partly behind the camera, every pixel is tried
     std::array<Eigen::Vector2d, 8> corners;
     for (int i = 0; i < 8; ++i) {
       const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
@@ -41,7 +41,7 @@ public:
       corners[i] = {camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy};
       rows_.include(corners[i].y());
     }
-    // The bits of a corner's number say at which end of x, y and z it is.
+    // Each bit of a corner's number selects the lower or upper end of x, y or z.
     std::size_t edge = 0;
     for (int i = 0; i < 8; ++i) {
       for (const int bit : {1, 2, 4}) {
@@ -51,7 +51,7 @@ public:
     }
   }
 
-  /// Holds the columns that the solid covers in a row.
+  /// An interval that contains the columns that the solid covers in a row.
   Span columns(double row) const
   {
     Span columns;

@@ -18,15 +18,15 @@ struct SurfaceImage
   std::vector<std::int32_t> part;  ///< index into Scene::parts(); -1 where there is none
 };
 
-/// What a camera sees of a scene.
+/// The surfaces of a scene that a camera sees.
 struct VisibleSurfaces
 {
   SurfaceImage opaque;
   SurfaceImage transparent;  ///< the nearest transparent surfaces, also those behind opaque ones
 };
 
-/// Casts a ray through the centre of every pixel of a pinhole camera. Each part is tried in those pixels only that its
-/// bounding box projects to; rows are cast in parallel, with the same result for any number of threads.
+/// Casts a ray through the centre of every pixel of a pinhole camera. A part is tested only in the pixels to which its
+/// bounding box projects. Rows are processed in parallel; the result does not depend on the number of threads.
 VisibleSurfaces findVisibleSurfaces(const Scene& scene, const Eigen::Isometry3d& T_scene_camera,
                                     const PinholeIntrinsics& camera, std::uint32_t width, std::uint32_t height);
 

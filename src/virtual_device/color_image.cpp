@@ -37,7 +37,7 @@ std::vector<std::uint8_t> colorImage(const View& view, const PinholeIntrinsics& 
       nearest.part[i] = visible.transparent.part[i];
     }
   }
-  // Normals come from differences of disparity, in which any baseline cancels.
+  // Normals come from ratios of disparities, so that the value of the baseline does not matter.
   const DisparityImage disparity(nearest.depth, static_cast<int>(width), static_cast<int>(height), camera, 1.0);
 
   std::vector<std::uint8_t> image(3 * nearest.depth.size(), 0);

@@ -9,8 +9,8 @@
 namespace grasp_affordances
 {
 
-/// What a camera at the view's pose sees of its scene, row-major, red, green, blue: each object in a color of its own,
-/// lit from the camera, black where there is nothing. Materials and textures are not simulated.
+/// Renders the color image of a camera at the view's pose: row-major, bytes red, green, blue. Each object has its own
+/// color and is lit from the camera; the background is black. Materials and textures are not simulated.
 std::vector<std::uint8_t> colorImage(const View& view, const PinholeIntrinsics& camera, std::uint32_t width,
                                      std::uint32_t height);
 

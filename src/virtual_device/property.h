@@ -8,7 +8,7 @@
 namespace grasp_affordances
 {
 
-/// Hands out the value of a property as OpenNI2 passes them: bytes, and the size that the caller expects.
+/// Writes the value of a property into OpenNI2's buffer. `size` is the number of bytes that the caller expects.
 template <class T>
 OniStatus answerProperty(const T& value, void* data, const int* size)
 {
@@ -18,7 +18,7 @@ OniStatus answerProperty(const T& value, void* data, const int* size)
   return ONI_STATUS_OK;
 }
 
-/// As above, with a terminating zero, for a buffer that is large enough.
+/// As above, with a terminating zero. The buffer may be larger than the text.
 inline OniStatus answerProperty(const std::string& value, void* data, int* size)
 {
   const auto needed = static_cast<int>(value.size() + 1);

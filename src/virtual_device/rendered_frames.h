@@ -13,22 +13,22 @@
 namespace grasp_affordances
 {
 
-/// Where the color camera is beside the depth camera, whose intrinsics it shares: OpenNI2 reports one field of view for
-/// both. On +x of the optical frame, in metres; openni2_launch has the same number.
+/// Distance from the depth camera to the color camera, along +x of the optical frame, in metres, as in openni2_launch.
+/// Both cameras have the same intrinsics, because OpenNI2 reports one field of view for both.
 constexpr double kColorBaseline = 0.025;
 
-/// What the color camera would measure: every pixel of a depth image moved by the disparity between the cameras to the
-/// nearest pixel there; the nearer surface wins, and what the depth camera does not see stays 0.
+/// Registers a depth image to the color camera: moves every pixel by the disparity between the cameras, to the nearest
+/// pixel. If two pixels meet, the nearer surface is kept. Pixels that the depth camera does not see are 0.
 std::vector<std::uint16_t> registeredDepth(const std::vector<std::uint16_t>& depth, const XtionModel& model);
 
-/// The frames of a virtual device, rendered in a thread of their own. Safe to use from several threads.
+/// The frames of a virtual device. A thread renders them. Safe to use from several threads.
 class RenderedFrames
 {
 public:
-  /// Frame 0 is that of the tool `simulate`. @throw std::invalid_argument for an unknown scene.
+  /// Frame 0 equals that of the tool `simulate`. @throw std::invalid_argument for an unknown scene.
   explicit RenderedFrames(const VirtualScene& scene);
 
-  /// Ends the thread, after at most one more frame.
+  /// Ends the thread; it finishes at most the frame that it renders.
   ~RenderedFrames();
 
   RenderedFrames(const RenderedFrames&) = delete;
@@ -38,7 +38,7 @@ public:
   const XtionModel& model() const { return xtion_.model(); }
   std::size_t count() const { return frames_.size(); }
 
-  /// Whether all are rendered: before that there is none.
+  /// Whether all frames are rendered. The other methods that return frames need this.
   bool ready() const { return ready_; }
 
   const std::vector<std::uint16_t>& depth(std::size_t n, bool registered) const

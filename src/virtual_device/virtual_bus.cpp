@@ -179,7 +179,7 @@ void VirtualBus::unplug(const std::string& uri, const OniDeviceInfo& info)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto camera = plugged_.find(uri);
-    if (stopping_ || camera == plugged_.end())  // it vanished at this very moment
+    if (stopping_ || camera == plugged_.end())  // or it was unplugged meanwhile
       return;
     camera->second->state = VirtualDeviceState::unplugged;
     plugged_.erase(camera);

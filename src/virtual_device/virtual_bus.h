@@ -19,13 +19,13 @@
 namespace grasp_affordances
 {
 
-/// A camera from its plugging in to its unplugging.
+/// A virtual camera while it is plugged in.
 struct PluggedCamera
 {
-  VirtualDeviceSettings settings;  ///< but for the state
+  VirtualDeviceSettings settings;  ///< without the state, which may change
   std::atomic<VirtualDeviceState> state;
   std::shared_ptr<const RenderedFrames> frames;
-  std::function<void()> pull;  ///< unplugs it; from any thread, once
+  std::function<void()> pull;  ///< unplugs it; may be called from any thread, once
 
   PluggedCamera(const VirtualDeviceSettings& camera_settings, std::shared_ptr<const RenderedFrames> camera_frames)
       : settings(camera_settings), state(camera_settings.state), frames(std::move(camera_frames))
@@ -33,25 +33,26 @@ struct PluggedCamera
   }
 };
 
-/// What virtual cameras are plugged in, as a file says that is read again and again. A list that cannot be read changes
-/// nothing and is said on stderr, once.
+/// The virtual cameras that are plugged in. A file lists them, and is read repeatedly. If it cannot be read, nothing
+/// changes, and one line on stderr says so.
 class VirtualBus : public std::enable_shared_from_this<VirtualBus>
 {
 public:
   using Event = std::function<void(const OniDeviceInfo&)>;
 
   /// @param list_file see parseDeviceList(); empty: one device, with the defaults of VirtualDeviceSettings
-  /// @param connected, disconnected are called with no lock held. The information stays valid as long as the bus.
+  /// @param connected, disconnected are called without a lock. The OniDeviceInfo stays valid as long as the bus.
   VirtualBus(std::string list_file, Event connected, Event disconnected);
 
-  /// Reports the cameras that the list says are plugged in, then watches it in a thread of its own.
+  /// Reports the cameras that are plugged in according to the list. Then a thread watches the list.
   void start();
 
-  /// Ends that thread. OpenNI shuts its drivers down with a lock held that its own callbacks wait for: a thread that is
-  /// about to report a camera at this very moment cannot be waited for. It is left behind, and holds the bus.
+  /// Ends that thread, if possible. OpenNI holds a lock while it shuts its drivers down, and its callbacks wait for
+  /// that lock. If the thread is just reporting a camera, waiting for it would be a deadlock. It is then detached, and
+  /// keeps the bus alive until it ends.
   void stop();
 
-  /// The camera that is plugged in under that URI; empty if there is none.
+  /// The camera with that URI that is plugged in; null if there is none.
   std::shared_ptr<PluggedCamera> find(const std::string& uri) const;
 
 private:
@@ -69,14 +70,14 @@ private:
   const Event connected_;
   const Event disconnected_;
 
-  // Of the thread that updates.
+  // Used by the updating thread only.
   std::string last_list_;
-  std::vector<VirtualDeviceSettings> devices_;  // of that list
+  std::vector<VirtualDeviceSettings> devices_;  // the entries of that list
   std::string last_complaint_;
-  std::map<std::string, OniDeviceInfo> infos_;  // OpenNI keeps pointers to them: none is ever erased
+  std::map<std::string, OniDeviceInfo> infos_;  // never erased: OpenNI keeps pointers to them
   std::vector<std::shared_ptr<const RenderedFrames>> frames_;
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::map<std::string, std::shared_ptr<PluggedCamera>> plugged_;
   std::condition_variable change_;
   bool stopping_ = false;

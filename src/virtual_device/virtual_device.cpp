@@ -16,7 +16,7 @@ OniVideoMode videoMode(OniPixelFormat format, int width, int height)
   return {format, width, height, 30};
 }
 
-/// The depth and the color sensor of every device.
+/// The two sensors of every virtual device: depth and color.
 std::array<OniSensorInfo, 2>& sensors()
 {
   static std::array<OniVideoMode, 2> depth_modes = {videoMode(ONI_PIXEL_FORMAT_DEPTH_1_MM, 640, 480),

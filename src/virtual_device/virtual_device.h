@@ -13,9 +13,9 @@ namespace grasp_affordances
 
 /// A virtual Xtion that a program has opened.
 ///
-/// Its clock starts at 0 when it is opened. Frame k, from 1, is taken at k / 30 s by that clock and has the content
-/// k mod N of the N rendered ones, in the depth and in the color stream alike. A frame that comes late by a whole
-/// period or more is skipped, as are all before the last content is rendered.
+/// Its clock starts at 0 when it is opened. Frame k (k = 1, 2, ...) has the time k / 30 s by that clock and shows
+/// rendered frame k mod N of N; depth and color stream agree in this. A frame that is late by one period or more is
+/// skipped. Nothing is sent before all N frames are rendered.
 class VirtualDevice : public oni::driver::DeviceBase
 {
 public:

@@ -11,8 +11,8 @@
 namespace grasp_affordances
 {
 
-/// A driver of the OpenNI2 runtime for virtual devices. The environment variable GRASP_AFFORDANCES_VIRTUAL_DEVICES
-/// names the file that lists them, see VirtualBus, by an absolute path: OpenNI changes the working directory.
+/// OpenNI2 driver for virtual devices. The environment variable GRASP_AFFORDANCES_VIRTUAL_DEVICES is the path of the
+/// file that lists them, see VirtualBus. The path must be absolute, because OpenNI changes the working directory.
 class VirtualDriver : public oni::driver::DriverBase
 {
 public:
@@ -58,7 +58,7 @@ private:
 
 }  // namespace grasp_affordances
 
-// Of headers of OpenNI that are not installed.
+// These macros are in headers of OpenNI that are not installed.
 #define XN_NEW(type, ...) new type(__VA_ARGS__)
 #define XN_DELETE(pointer) delete (pointer)
 

@@ -35,7 +35,7 @@ float fieldOfView(std::uint32_t pixels, double focal_length)
   return static_cast<float>(2.0 * std::atan(0.5 * pixels / focal_length));
 }
 
-/// Every pixel, or every second one of every second row.
+/// Copies every pixel, or every second pixel of every second row.
 template <class Pixel>
 void scan(const Pixel* image, int image_width, const OniVideoMode& mode, bool mirrored, Pixel* out)
 {
@@ -46,7 +46,8 @@ void scan(const Pixel* image, int image_width, const OniVideoMode& mode, bool mi
   }
 }
 
-/// What losses on the USB leave of a frame, three kinds in turn: three quarters of its bytes, half its rows, nothing.
+/// Truncates a frame as data loss on USB does. Three kinds alternate: three quarters of the bytes, half of the rows,
+/// nothing.
 void tear(OniFrame& frame)
 {
   switch (frame.frameIndex % 3) {
@@ -62,7 +63,8 @@ void tear(OniFrame& frame)
   }
 }
 
-/// Sizes, in turn, that are not those of a frame's mode. The last one, two negative sizes, fits together.
+/// Gives a frame sizes that do not fit its mode; several kinds alternate. In the last one stride and number of bytes
+/// are both negative, so that they fit each other.
 void misshape(OniFrame& frame)
 {
   switch (frame.frameIndex % 8) {
@@ -95,8 +97,7 @@ void misshape(OniFrame& frame)
   }
 }
 
-/// Puts the lower half of another depth image below a frame's own, and between them rows that end in depths beyond all
-/// that a device measures.
+/// Reverses the lower half of a depth image, and fills the rows above it with depths that no device measures.
 void garble(OniFrame& frame)
 {
   auto* pixels = static_cast<OniDepthPixel*>(frame.data);
@@ -106,7 +107,8 @@ void garble(OniFrame& frame)
     pixels[i] = i % 3 == 0 ? 0xFFFF : static_cast<OniDepthPixel>(i % 3);
 }
 
-/// A clock that goes well, stands still, jumps back, forth, to its beginning and to its end.
+/// A clock that alternately is right, stands still, jumps back, jumps forward, and shows its least and its largest
+/// time.
 std::uint64_t wrongTime(int frame_index, std::uint64_t time)
 {
   constexpr std::uint64_t kSecond = 1'000'000;  // us
@@ -195,11 +197,11 @@ OniStatus VirtualStream::getProperty(int id, void* data, int* size)
       return answerProperty(fieldOfView(model.width, model.intrinsics.fx), data, size);
     case ONI_STREAM_PROPERTY_VERTICAL_FOV:
       return answerProperty(fieldOfView(model.height, model.intrinsics.fy), data, size);
-    case ONI_STREAM_PROPERTY_MAX_VALUE:  // frames of a recorder hold nothing above it
+    case ONI_STREAM_PROPERTY_MAX_VALUE:  // a recorder drops depths above it
       return answerProperty(sensor_.sensorType == ONI_SENSOR_DEPTH ? kMaxDepth : kMaxColor, data, size);
     case ONI_STREAM_PROPERTY_MIN_VALUE:
       return answerProperty<int>(0, data, size);
-    case ONI_STREAM_PROPERTY_CROPPING:  // a recorder of a stream that does not answer plays no frames back
+    case ONI_STREAM_PROPERTY_CROPPING:  // a recording of a stream without it does not play
       return answerProperty(OniCropping{}, data, size);
     default:
       return ONI_STATUS_NOT_IMPLEMENTED;
@@ -236,7 +238,7 @@ void VirtualStream::run()
     const auto due = device_.opened() + std::chrono::duration_cast<steady_clock::duration>(next);
     if (stop_asked_.wait_until(lock, due, [this] { return stopping_; }))
       return;
-    lock.unlock();  // OpenNI may ask for properties while it takes the frame
+    lock.unlock();  // OpenNI may read properties while it receives the frame
     const VirtualDeviceState state = device_.camera().state;
     if (device_.camera().frames->ready() && state != VirtualDeviceState::unplugged &&
         state != VirtualDeviceState::stalled)
@@ -302,7 +304,7 @@ void VirtualStream::fill(OniFrame& frame, int frame_index)
   if (is_depth) {
     auto* pixels = static_cast<OniDepthPixel*>(frame.data);
     scan(frames.depth(frame_index % frames.count(), device_.registered()).data(), width, mode, mirrored, pixels);
-    // OpenNI's codec of recordings loses a last pixel that ends a run of equal ones.
+    // OpenNI's codec for recordings loses the last pixel where it ends a run of equal pixels.
     const std::size_t last = static_cast<std::size_t>(frame.width) * frame.height - 1;
     pixels[last] = pixels[last - 1];
   } else {

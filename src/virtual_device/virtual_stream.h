@@ -13,8 +13,8 @@ namespace grasp_affordances
 
 class VirtualDevice;
 
-/// Depth (640x480 or 320x240, millimetres) or color (the same sizes, RGB), 30 frames per second. Like the streams of a
-/// real Xtion it is mirrored until it is told not to be. Holds no lock while OpenNI takes a frame.
+/// A stream of depth images (640x480 or 320x240, millimetres) or color images (the same sizes, RGB), 30 per second.
+/// Like the streams of a real Xtion it is mirrored by default. It holds no lock while it passes a frame to OpenNI.
 class VirtualStream : public oni::driver::StreamBase
 {
 public:
@@ -24,7 +24,7 @@ public:
 
   OniStatus start() override;
 
-  /// Returns when the last frame has been taken.
+  /// Returns after OpenNI has received the last frame.
   void stop() override;
 
   OniStatus setProperty(int id, const void* data, int size) override;
@@ -39,9 +39,9 @@ private:
 
   const VirtualDevice& device_;
   const OniSensorInfo& sensor_;
-  int sent_ = 0;  // of a device that vanishes; of the thread
+  int sent_ = 0;  // frames of a device that vanishes; used by the thread only
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   OniVideoMode mode_;
   bool mirrored_ = true;
   bool stopping_ = false;

@@ -95,7 +95,7 @@ TEST_F(DeviceTest, IsOpenedByUriSerialOrNumber)
 TEST_F(DeviceTest, RefusalsSayWhatThereIs)
 {
   initialize(bus("plugged"));
-  EXPECT_EQ(refusal(requested("B2")), "none is B2 among those connected: test/1");
+  EXPECT_EQ(refusal(requested("B2")), "no device is B2; connected: test/1");
   DeviceRequest request = requested("");
   request.depth_mode = {320, 240, 7};
   EXPECT_EQ(refusal(request), "test/1, depth: no mode 320x240@7 among 320x240@30 640x480@30");

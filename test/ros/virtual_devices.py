@@ -6,11 +6,17 @@ import subprocess
 import tempfile
 
 import numpy
+import roslib.packages
 import rospy
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 
 from helpers import Launch, Listener, Process, executable
+
+
+def openni2_is_built():
+    """Whether the build has the driver: it is left out where OpenNI2 is not found."""
+    return bool(roslib.packages.find_node('grasp_affordances', 'xtion_node'))
 
 
 def openni2_path():

@@ -5,8 +5,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// As in openni2_launch: 2 cm to the right of the middle of the device the depth camera, 2.5 cm further the color
-/// camera.
+/// As in openni2_launch: the depth camera is 2 cm to the right of the device's middle, the color camera 4.5 cm.
 Eigen::Isometry3d linkToCamera(XtionCamera camera)
 {
   return Eigen::Isometry3d(Eigen::Translation3d(0.0, camera == XtionCamera::depth ? -0.02 : -0.045, 0.0));

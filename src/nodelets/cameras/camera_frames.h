@@ -10,8 +10,8 @@
 namespace grasp_affordances
 {
 
-/// The cameras of an Xtion. Their frames are those of openni2_launch: CAMERA_link, CAMERA_depth_frame and
-/// CAMERA_rgb_frame have x forward, y left, z up; CAMERA_depth_optical_frame and CAMERA_rgb_optical_frame have x right,
+/// The two cameras of an Xtion. The frames have the names and axes of openni2_launch. CAMERA_link, CAMERA_depth_frame
+/// and CAMERA_rgb_frame: x forward, y left, z up. CAMERA_depth_optical_frame and CAMERA_rgb_optical_frame: x right,
 /// y down, z forward.
 enum class XtionCamera
 {
@@ -22,9 +22,10 @@ enum class XtionCamera
 /// Pose of a camera's optical frame in CAMERA_link.
 Eigen::Isometry3d opticalPoseInLink(XtionCamera camera);
 
+/// Name of a camera's optical frame. @param prefix CAMERA in the names above.
 std::string opticalFrame(const std::string& prefix, XtionCamera camera);
 
-/// From CAMERA_link to a camera's frame, and from there to its optical frame.
+/// Two transforms: from CAMERA_link to the camera's frame, and from there to its optical frame.
 std::vector<geometry_msgs::TransformStamped> opticalTransforms(const std::string& prefix, XtionCamera camera,
                                                                const ros::Time& stamp);
 

@@ -14,11 +14,11 @@
 namespace grasp_affordances
 {
 
-/// A camera without distortion.
+/// CameraInfo of a camera without distortion. @param width,height of the image, pixels.
 sensor_msgs::CameraInfoPtr cameraInfoMessage(const PinholeIntrinsics& camera, std::uint32_t width, std::uint32_t height,
                                              const std_msgs::Header& header);
 
-/// What a simulated camera publishes for one frame.
+/// The messages that a simulated camera publishes for one frame.
 struct FrameMessages
 {
   sensor_msgs::CameraInfoPtr camera_info;
@@ -28,8 +28,9 @@ struct FrameMessages
 
 FrameMessages frameMessages(const Frame& frame, const XtionModel& model, const std_msgs::Header& header);
 
-/// Makes the messages ready to be published once more, at another time. Subscribers in this process share what was
-/// published: a message that one of them still holds stays as it is, and a copy takes its place.
+/// Gives the messages a new stamp, so that they can be published again. Subscribers in this process share published
+/// messages. If one of them still holds a message, that message is not changed: a copy with the new stamp replaces it
+/// in `messages`.
 void restamp(FrameMessages& messages, const ros::Time& stamp);
 
 }  // namespace grasp_affordances

@@ -18,7 +18,7 @@ namespace grasp_affordances
 namespace
 {
 
-/// Names of calibrations have letters, digits and underscores only.
+/// The name of a calibration. It may have letters, digits and underscores only.
 std::string calibrationName(const std::string& camera, const Device& device)
 {
   std::string name = camera + "_" + (device.serial().empty() ? device.uri() : device.serial());
@@ -55,7 +55,7 @@ CameraCalibration::CameraCalibration(const ros::NodeHandle& nh, const std::strin
 void CameraCalibration::setDevice(const Device& device, Sensor sensor)
 {
   const std::string name = calibrationName(camera_, device);
-  if (name != name_) {  // else what the manager knows is still right, and it does not read it again
+  if (name != name_) {  // otherwise the manager already has this calibration, and need not read its file again
     manager_.setCameraName(name);
     name_ = name;
   }
@@ -70,12 +70,12 @@ sensor_msgs::CameraInfoPtr CameraCalibration::info(const sensor_msgs::Image& ima
       calibrated->header = image.header;
       return calibrated;
     }
-    ROS_WARN_STREAM_ONCE("the calibration " << camera_ << " is for pictures of " << calibrated->width << "x"
+    ROS_WARN_STREAM_ONCE("the calibration " << camera_ << " is for images of " << calibrated->width << "x"
                                             << calibrated->height << " and is not used");
   }
   const std::optional<PinholeIntrinsics> intrinsics = pinholeIntrinsics(field_of_view_, image.width, image.height);
   if (!intrinsics) {
-    ROS_WARN_STREAM_ONCE("the device tells no field of view: without a calibration its camera_info is empty");
+    ROS_WARN_STREAM_ONCE("the device reports no field of view: without a calibration its camera_info is empty");
   }
   return cameraInfoMessage(intrinsics.value_or(PinholeIntrinsics()), image.width, image.height, image.header);
 }

@@ -21,19 +21,21 @@
 namespace grasp_affordances
 {
 
-/// Where the projection of a camera comes from: a calibration, which camera_info_manager keeps and its service
-/// set_camera_info changes, where there is one for pictures of the right size; else the device.
+/// Source of a camera's intrinsics. If there is a calibration for images of the right size, that is used;
+/// camera_info_manager stores it, and its service set_camera_info changes it. Otherwise the intrinsics follow from the
+/// field of view that the device reports.
 class CameraCalibration
 {
 public:
-  /// @param nh the camera's namespace, as .../depth
-  /// @param camera depth or rgb: what the calibration's name begins with; its end is the device's
+  /// @param nh the camera's namespace, for example .../depth
+  /// @param camera depth or rgb. The calibration's name is this word and the device's serial number, or else its URI.
+  /// @param url of the calibration file; empty: the default of camera_info_manager
   CameraCalibration(const ros::NodeHandle& nh, const std::string& camera, const std::string& url);
 
-  /// @param sensor which of the device's it is
+  /// Selects the calibration of a device. @param sensor the device's sensor that this camera belongs to
   void setDevice(const Device& device, Sensor sensor);
 
-  /// Uncalibrated, K[0] = 0, where nothing is known.
+  /// The CameraInfo for an image. It is uncalibrated (K[0] = 0) if neither a calibration nor a field of view is known.
   sensor_msgs::CameraInfoPtr info(const sensor_msgs::Image& image);
 
 private:
@@ -43,7 +45,7 @@ private:
   FieldOfView field_of_view_;
 };
 
-/// The topics image_raw and camera_info of one of a device's streams. Not safe to use from several threads.
+/// Publishes one stream of a device on the topics image_raw and camera_info. Not safe to use from several threads.
 class CameraStream
 {
 public:
@@ -52,24 +54,25 @@ public:
   struct Settings
   {
     std::string frame_id;
-    double time_offset;  // s, added to stamps
+    double time_offset;  // s, added to each stamp
     double max_rate;     // Hz, 0: all frames
     DepthCorrection correction;
   };
 
-  /// @param calibration of the camera whose picture it is
+  /// @param calibration of the camera whose image the stream shows
   CameraStream(const ros::NodeHandle& nh, Sensor sensor, const Settings& settings, CameraCalibration& calibration,
                DeviceDiagnostics::Stream& statistics);
 
-  /// Starts the device's stream if somebody listens, and stops it otherwise. @throw DeviceError
+  /// Starts the device's stream if a topic has a subscriber, and stops it otherwise.
+  /// @throw DeviceError if the stream does not start.
   void runIfWanted(Device& device);
 
-  /// Publishes a frame; one that is not intact is counted and skipped. Returns whether it was intact.
+  /// Publishes a frame. A frame that is not intact is counted and not published. Returns whether it was intact.
   bool publish(const DeviceFrame& frame, const ImageLayout& layout);
 
   Sensor sensor() const { return sensor_; }
 
-  /// For how long the device owes a frame.
+  /// Time since the last frame of a running stream; 0 if the stream does not run.
   Clock::duration silence(const Device& device) const;
 
 private:

@@ -14,49 +14,50 @@ namespace grasp_affordances
 
 enum class DeviceState
 {
-  waiting,       ///< no such device yet, or it cannot be opened
-  connected,     ///< frames come, or nobody wants any
-  stalled,       ///< frames do not come; until one comes
-  disconnected,  ///< it was there, and was pulled out
-  ended          ///< a recording is over
+  waiting,       ///< the device is not connected yet, or it cannot be opened
+  connected,     ///< frames arrive, or no topic has a subscriber
+  stalled,       ///< no frames arrive; lasts until the next frame
+  disconnected,  ///< the device was unplugged
+  ended          ///< the recording has ended
 };
 
-/// The word that stands for a state.
+/// The state as a word, such as "connected".
 const char* deviceStateWord(DeviceState state);
 
-/// The state of a camera and its streams on /diagnostics. Not safe to use from several threads.
+/// Publishes the state of a camera and of its streams on /diagnostics. Not safe to use from several threads.
 ///
-/// In place of diagnostic_updater::Updater, which reads its period from the parameter server again and again and
-/// throws at one that it cannot compute with, and which falls silent while the ROS clock is set back or stands still.
+/// It replaces diagnostic_updater::Updater. That class reads its period from the parameter server repeatedly, and
+/// throws if the parameter is not a valid number. It also publishes nothing while the ROS clock stands still or was set
+/// back.
 class DeviceDiagnostics
 {
 public:
-  /// What is counted of a stream, since the node began.
+  /// Counters of a stream, since the node started.
   struct Stream
   {
     std::string name;
     std::uint64_t frames = 0;
-    std::uint64_t corrupt = 0;  // frames that were skipped
+    std::uint64_t corrupt = 0;  // frames that were not intact, and not published
 
     std::uint64_t reported_frames = 0;
     std::uint64_t reported_corrupt = 0;
   };
 
-  /// @param name of the node, full: what the name of the status begins with
-  /// @param period s of the wall clock, between messages
+  /// @param name full name of the node; the name of the status begins with it
+  /// @param period time between messages by the wall clock, s
   DeviceDiagnostics(ros::NodeHandle nh, const std::string& name, double period);
 
-  /// Valid as long as this object.
+  /// Adds a stream. The reference is valid as long as this object.
   Stream& addStream(const std::string& name);
 
   void setDevice(const std::string& uri, const std::string& serial);
-  const std::string& uri() const { return uri_; }  ///< of the last device
+  const std::string& uri() const { return uri_; }  ///< URI of the last device
 
-  /// The first state, and a change of it, are published at once. Returns whether there was a change.
+  /// Sets the state. The first state and every change are published at once. Returns whether the state changed.
   bool setState(DeviceState state, const std::string& message);
   DeviceState state() const { return state_; }
 
-  /// Publishes when the period has passed; to be called often.
+  /// Publishes if the period has passed. Call it often.
   void update();
 
 private:
@@ -65,7 +66,7 @@ private:
   void publish();
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  const std::string name_;  // of the status
+  const std::string name_;  // name of the status
   const std::chrono::duration<double> period_;
   ros::Publisher publisher_;
   std::string hardware_id_ = "none";

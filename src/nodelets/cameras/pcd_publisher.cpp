@@ -35,8 +35,9 @@ void publishRepeatedly(const ros::Publisher& publisher, sensor_msgs::PointCloud2
 
 }  // namespace
 
-/// Publishes a PCD file on `points`, stamped with the time of publication.
-/// Parameters: ~file; ~frame_id (camera_depth_optical_frame); ~rate in Hz (10), 0: once to each subscriber.
+/// Publishes the cloud of a PCD file on the topic `points`. Its stamp is the time of publication.
+/// Parameters: ~file, the path; ~frame_id, default camera_depth_optical_frame; ~rate in Hz, default 10. With a rate of
+/// 0 every new subscriber gets the cloud once.
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "pcd_publisher");
@@ -61,14 +62,14 @@ int main(int argc, char** argv)
   } catch (const grasp_affordances::ParameterError& error) {
     ROS_FATAL_STREAM(error.what());
     return 1;
-  } catch (const std::exception& error) {  // CloudError, or no memory for what the file holds
+  } catch (const std::exception& error) {  // CloudError, or not enough memory for the file
     ROS_FATAL("%s: %s", file.c_str(), error.what());
     return 1;
   }
   message.header.frame_id = frame_id;
 
   if (rate == 0.0) {
-    // Not latched: roscpp forgets the latched message for a subscriber that connects while it is being published.
+    // Not latched: roscpp does not send the latched message to a subscriber that connects while it is published.
     message.header.stamp = ros::Time::now();
     const auto greet = [&message](const ros::SingleSubscriberPublisher& subscriber) { subscriber.publish(message); };
     const ros::Publisher publisher = nh.advertise<sensor_msgs::PointCloud2>("points", 1, greet);

@@ -35,28 +35,28 @@ namespace grasp_affordances
 namespace
 {
 
-/// A frame that is asked for.
+/// A frame to render or publish.
 struct Shot
 {
   ros::Time stamp;
-  std::size_t number;  // in the round of the frames rendered ahead
+  std::size_t number;  // index among the frames rendered ahead
 };
 
 }  // namespace
 
-/// Publishes what a virtual Xtion sees of a scene, as openni2_launch does for a real one.
+/// Simulates an Xtion that looks at a scene. Topics and frames are those of openni2_launch for a real Xtion.
 ///
-/// Published, with one stamp and in the frame CAMERA_depth_optical_frame, while somebody listens to any of them:
-/// depth/camera_info (sensor_msgs/CameraInfo), depth/image_raw (sensor_msgs/Image, 16UC1, mm) and depth/points
-/// (sensor_msgs/PointCloud2, organized). Always: the transforms from the world to CAMERA_link, CAMERA_depth_frame and
-/// CAMERA_depth_optical_frame.
+/// Published while one of these topics has a subscriber: depth/camera_info (sensor_msgs/CameraInfo), depth/image_raw
+/// (sensor_msgs/Image, 16UC1, mm) and depth/points (sensor_msgs/PointCloud2, organized). The three messages of a frame
+/// have one stamp and the frame CAMERA_depth_optical_frame. Published always: the transforms from the world to
+/// CAMERA_link, CAMERA_depth_frame and CAMERA_depth_optical_frame.
 /// Parameters: see SimulatedCameraParameters.
 class SimulatedCameraNodelet : public nodelet::Nodelet
 {
 public:
   ~SimulatedCameraNodelet() override
   {
-    // In this order: no more frames are asked for, then the last one is finished while its publishers still exist.
+    // The timer ends first, so that no new frame starts. Then the worker finishes its frame while its publishers exist.
     timer_.stop();
     closing_ = true;
     worker_.reset();
@@ -89,13 +89,13 @@ private:
   ros::Publisher depth_;
   ros::Publisher points_;
 
-  // Of the worker's thread.
+  // Used by the worker's thread only.
   std::uint64_t frame_number_ = 0;
   std::vector<FrameMessages> frames_ahead_;
 
   std::atomic<bool> closing_{false};  // ends renderAhead()
   std::unique_ptr<NewestOnlyWorker<Shot>> worker_;
-  std::size_t next_number_ = 0;  // of the timer's callback
+  std::size_t next_number_ = 0;  // used by the timer's callback only
   ros::Timer timer_;
 };
 
@@ -106,7 +106,8 @@ void SimulatedCameraNodelet::onInit()
     parameters_ = simulatedCameraParameters(getPrivateNodeHandle());
     view_ = viewFromAside(makeScene(parameters_.scene, parameters_.seed), kDegree * parameters_.turn_deg);
   } catch (const std::exception& error) {
-    NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
+    // The nodelet loader does not print the exception.
+    NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());
     throw;
   }
   link_frame_ = parameters_.camera + "_link";
@@ -150,7 +151,7 @@ Eigen::Isometry3d SimulatedCameraNodelet::cameraPose(const Shot& shot) const
   if (!orbit_) {
     return view_.T_scene_camera;
   }
-  // One round of the frames rendered ahead is one orbit: the last frame leads to the first.
+  // The frames rendered ahead make one orbit, so that the first frame follows the last one smoothly.
   return orbit_->pose(parameters_.frames_ahead > 0 ? parameters_.period_s * shot.number / parameters_.frames_ahead
                                                    : shot.stamp.toSec());
 }
@@ -169,10 +170,10 @@ void SimulatedCameraNodelet::tick(const ros::Time& stamp)
   if (orbit_) {
     transforms_->sendTransform(linkTransform(shot));
   }
-  // Asked at every tick instead of being told of connections: the ticks go on for the transforms anyway, and nothing
-  // needs a lock.
+  // Subscribers are counted at every tick. Connection callbacks would need a lock, and the timer runs anyway for the
+  // transforms.
   if (anybodyListens()) {
-    worker_->put(shot);  // a frame that still waits is skipped
+    worker_->put(shot);  // a frame that still waits is dropped
   }
 }
 
@@ -181,7 +182,7 @@ void SimulatedCameraNodelet::take(const Shot& shot)
   if (parameters_.frames_ahead == 0) {
     publish(render(shot, frame_number_++));
   } else if (frames_ahead_.size() < parameters_.frames_ahead) {
-    renderAhead();  // by the end of which this shot is old: the next one is published
+    renderAhead();  // this takes long, so that the shot is outdated afterwards; the next one is published
   } else {
     FrameMessages& frame = frames_ahead_[shot.number];
     restamp(frame, shot.stamp);

@@ -30,10 +30,10 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kThrottlePeriod = 5.0;           // s between repetitions of a complaint
-constexpr std::chrono::milliseconds kPoll{100};   // how long nothing but frames is looked at
-constexpr std::chrono::milliseconds kRetry{500};  // between attempts to open the device
-constexpr double kTimeoutsBeforeReopening = 4.0;  // a stalled device may recover by being opened anew
+constexpr double kThrottlePeriod = 5.0;           // s, shortest time between repeated warnings
+constexpr std::chrono::milliseconds kPoll{100};   // longest wait for a frame before other events are checked
+constexpr std::chrono::milliseconds kRetry{500};  // time between attempts to open the device
+constexpr double kTimeoutsBeforeReopening = 4.0;  // a stalled device may recover when it is opened again
 
 /// Why no more frames come.
 enum class StreamEnd
@@ -46,18 +46,18 @@ enum class StreamEnd
 
 }  // namespace
 
-/// The driver of a camera of the OpenNI2 runtime, as an Asus Xtion, or of one of its recordings.
+/// Driver for an OpenNI2 camera, such as an Asus Xtion, and for recordings of OpenNI2.
 ///
-/// Published while somebody listens: depth/image_raw (sensor_msgs/Image, 16UC1, mm, 0: not measured, REP 118) and
-/// depth/camera_info (sensor_msgs/CameraInfo); with color also rgb/image_raw (rgb8) and rgb/camera_info. Always:
-/// /diagnostics and, unless publish_tf is off, the static transforms between the camera's frames. Parameters: see
-/// XtionParameters.
+/// Published while a topic has a subscriber: depth/image_raw (sensor_msgs/Image, 16UC1, mm, 0: not measured, REP 118)
+/// and depth/camera_info (sensor_msgs/CameraInfo); with color also rgb/image_raw (rgb8) and rgb/camera_info. Published
+/// always: /diagnostics and, unless publish_tf is off, the static transforms between the camera's frames. Parameters:
+/// see XtionParameters.
 class XtionNodelet : public nodelet::Nodelet
 {
 public:
   ~XtionNodelet() override
   {
-    // The thread is finished while its publishers still exist.
+    // The thread must end while its publishers still exist.
     {
       const std::lock_guard<std::mutex> lock(closing_mutex_);
       closing_ = true;
@@ -79,9 +79,9 @@ private:
   StreamEnd serveUntilEnd();
   bool goOnAfter(StreamEnd end);
   void complain(const std::exception& error);
-  bool readFrame();                               // waits a little; returns whether there was one
-  std::chrono::duration<double> silence() const;  // of the stream that owes a frame for longest
-  bool pause(std::chrono::milliseconds time);     // returns whether the nodelet goes on
+  bool readFrame();                               // waits for at most kPoll; returns whether a frame came
+  std::chrono::duration<double> silence() const;  // longest time without a frame among the running streams
+  bool pause(std::chrono::milliseconds time);     // returns false if the nodelet ends
 
   NameClaim name_claim_;
   XtionParameters parameters_;
@@ -95,8 +95,8 @@ private:
   std::condition_variable closing_changed_;
   bool closing_ = false;
 
-  // Of the thread.
-  std::shared_ptr<OpenNi2Runtime> runtime_;  // held also while there is no device, to hear of one
+  // Used by the thread only.
+  std::shared_ptr<OpenNi2Runtime> runtime_;  // kept also while there is no device, so that new devices are noticed
   std::unique_ptr<Device> device_;
   std::string last_complaint_;
   std::thread thread_;
@@ -108,7 +108,8 @@ void XtionNodelet::onInit()
     name_claim_.claim(getName());
     parameters_ = xtionParameters(getPrivateNodeHandle());
   } catch (const std::exception& error) {
-    NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());  // the loader drops what it catches
+    // The nodelet loader does not print the exception.
+    NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());
     throw;
   }
   advertise();
@@ -120,7 +121,7 @@ void XtionNodelet::onInit()
 
 void XtionNodelet::advertise()
 {
-  // Absolute names: nodelet's node handle takes the root namespace for that of the manager.
+  // Absolute names: for a nodelet in the root namespace, the node handle resolves names in the manager's namespace.
   const std::string parent = ros::names::parentNamespace(getName());
   const ros::NodeHandle depth_nh(getNodeHandle(), ros::names::append(parent, "depth"));
   const ros::NodeHandle rgb_nh(getNodeHandle(), ros::names::append(parent, "rgb"));
@@ -164,7 +165,7 @@ void XtionNodelet::run()
       const StreamEnd end = serve();
       device_.reset();
       goes_on = goOnAfter(end);
-    } catch (const std::exception& error) {  // DeviceError, or no memory for a frame
+    } catch (const std::exception& error) {  // DeviceError, or not enough memory for a frame
       device_.reset();
       complain(error);
       goes_on = pause(kRetry);
@@ -194,7 +195,7 @@ StreamEnd XtionNodelet::serve()
   try {
     return serveUntilEnd();
   } catch (const DeviceError& error) {
-    // OpenNI2 may fail before it tells that the device was pulled out.
+    // OpenNI2 may report an error before it reports that the device was unplugged.
     pause(kRetry);
     if (!device_->connected()) {
       return StreamEnd::disconnected;
@@ -217,7 +218,7 @@ StreamEnd XtionNodelet::serveUntilEnd()
     for (const auto& stream : streams_) {
       stream->runIfWanted(*device_);
     }
-    // In this order: the frames before the end still wait to be read.
+    // Checked before reading: at the end of a recording some frames still wait to be read.
     const bool at_end = device_->atEnd();
     if (!readFrame() && at_end) {
       return StreamEnd::ended;
@@ -281,7 +282,7 @@ bool XtionNodelet::goOnAfter(StreamEnd end)
 void XtionNodelet::complain(const std::exception& error)
 {
   const bool not_found = dynamic_cast<const DeviceNotFound*>(&error) != nullptr;
-  if (!(not_found && diagnostics_->state() == DeviceState::disconnected)) {  // which was said
+  if (!(not_found && diagnostics_->state() == DeviceState::disconnected)) {  // the disconnection was already reported
     const std::string text =
         (not_found ? "waiting for a device: " : "the device cannot be used: ") + std::string(error.what());
     if (text != last_complaint_) {

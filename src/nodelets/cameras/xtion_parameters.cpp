@@ -22,12 +22,12 @@ FrameMode readMode(const std::string& name, const std::string& word, const std::
   }
 }
 
-/// Of a calibration file. camera_info_manager hands the name of its folder to a shell, to have it made, and overwrites
-/// the file when somebody calls set_camera_info.
+/// Checks the URL of a calibration file. It must be safe: camera_info_manager passes the name of the file's folder to a
+/// shell command that creates the folder. And set_camera_info overwrites the file.
 void checkUrl(const std::string& name, const std::string& url)
 {
   static const std::regex kAllowed(R"((file://|package://)([\w./+-]|\$\{NAME\}|\$\{ROS_HOME\})+\.(yaml|yml|ini))");
-  constexpr std::size_t kLongest = 1000;  // characters; std::regex goes one call deeper for each
+  constexpr std::size_t kLongest = 1000;  // characters; std::regex needs one nested call for each
   if (!url.empty() && (url.size() > kLongest || !std::regex_match(url, kAllowed))) {
     throw ParameterError(
         "parameter ~" + name + " is the string '" + url +

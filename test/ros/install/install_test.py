@@ -26,6 +26,19 @@ def build_consumer(cmake, prefix, build):
         run([os.path.join(build, consumer)])
 
 
+def check_libraries(prefix):
+    """The localizer's library needs neither the cameras' nor OpenNI2; no library of plugins needs another one."""
+    libraries = os.path.join(prefix, 'lib')
+    environment = dict(os.environ, LD_LIBRARY_PATH=libraries)
+    for name, strangers in (('nodelets', ('OpenNI2', 'grasp_affordances_cameras')),
+                            ('cameras', ('grasp_affordances_nodelets',))):
+        library = os.path.join(libraries, 'libgrasp_affordances_%s.so' % name)
+        needed = subprocess.run(['ldd', library], check=True, stdout=subprocess.PIPE, env=environment).stdout.decode()
+        assert os.path.join(libraries, 'libgrasp_affordances_ros.so') in needed, needed
+        for stranger in strangers:
+            assert stranger not in needed, needed
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(('127.0.0.1', 0))
@@ -56,6 +69,10 @@ def check_launch(prefix, scratch):
     shell = InstalledShell(prefix, scratch)
     share = os.path.join(prefix, 'share', 'grasp_affordances')
     assert shell.answer('rospack find grasp_affordances').strip() == share
+    plugins = shell.answer('rospack plugins --attrib=plugin nodelet')
+    for file in ('nodelet_plugins.xml', 'camera_plugins.xml'):
+        assert os.path.join(share, file) in plugins, plugins
+        assert os.path.exists(os.path.join(share, file)), file
 
     scene = os.path.join(scratch, 'table.pcd')
     shell.answer('rosrun grasp_affordances simulate --scene table --seed 1 --out ' + scene)
@@ -90,6 +107,7 @@ def main():
         prefix = root + arguments.prefix
         build_consumer(arguments.cmake, arguments.devel, os.path.join(scratch, 'devel_consumer'))
         build_consumer(arguments.cmake, prefix, os.path.join(scratch, 'installed_consumer'))
+        check_libraries(prefix)
         check_launch(prefix, scratch)
 
 

@@ -21,6 +21,14 @@ def build(cmake, source, folder, prefixes, options, targets):
     run([cmake, '--build', folder, '--parallel', '2', '--target', *targets], env=environment, stdout=subprocess.DEVNULL)
 
 
+def check_libraries(node):
+    """A planner of grasps has no use for cameras and for what the localizer is made of."""
+    needed = subprocess.run(['ldd', node], check=True, stdout=subprocess.PIPE, universal_newlines=True).stdout
+    assert 'libgrasp_affordances_ros.so' in needed, needed
+    for library in ('OpenNI2', 'grasp_affordances_cameras', 'grasp_affordances_nodelets'):
+        assert library not in needed, needed
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(('127.0.0.1', 0))
@@ -58,7 +66,9 @@ def main():
         build(arguments.cmake, HERE, folder, prefixes, ['-DGRASP_AFFORDANCES_SOURCE_DIR=' + arguments.source,
               '-DGRASP_AFFORDANCES_DEVEL=' + arguments.devel], ['moveit_grasps', 'moveit_grasps_test'])
         run([os.path.join(folder, 'moveit_grasps_test')])
-        check_node(os.path.join(folder, 'moveit', 'moveit_grasps'), prefixes, scratch)
+        node = os.path.join(folder, 'moveit', 'moveit_grasps')
+        check_libraries(node)
+        check_node(node, prefixes, scratch)
 
 
 if __name__ == '__main__':

@@ -49,11 +49,11 @@ TEST(DeviceId, MeansAnyDeviceOrOneByNumberUriOrSerial)
 
 TEST(DeviceId, RefusalListsTheConnectedDevices)
 {
-  const std::string list = "among those connected: 1d27/0601@1/5 1d27/0601@2/5 1d27/0601@2/11";
-  EXPECT_EQ(refusal("#4", kUris), "none is #4 " + list);
-  EXPECT_EQ(refusal("#0", kUris), "none is #0 " + list);
-  EXPECT_EQ(refusal("B7", kUris), "none is B7 " + list);
-  EXPECT_EQ(refusal("@2", kUris), "more than one is @2 " + list);
+  const std::string list = "; connected: 1d27/0601@1/5 1d27/0601@2/5 1d27/0601@2/11";
+  EXPECT_EQ(refusal("#4", kUris), "no device is #4" + list);
+  EXPECT_EQ(refusal("#0", kUris), "no device is #0" + list);
+  EXPECT_EQ(refusal("B7", kUris), "no device is B7" + list);
+  EXPECT_EQ(refusal("@2", kUris), "more than one device is @2" + list);
   EXPECT_EQ(refusal("", {}), "none is connected");
 }
 
