@@ -347,7 +347,7 @@ TEST(Localizer, WorksOnCloudsWithoutARangeImage)
     behind.set(i, frame.cloud.x[i], -frame.cloud.y[i], -frame.cloud.z[i]);
   }
 
-  const Cloud without_rows = unorganized(frame.cloud);
+  Cloud without_rows = unorganized(frame.cloud);
   for (const Cloud* cloud : {&without_rows, &moved, &behind}) {
     const Localization result = Localizer(config).localize(*cloud);
     expectSound(result, "without a range image");
