@@ -11,9 +11,9 @@ namespace grasp_affordances
 
 // The frames that an axis has, and the directions at right angles to it.
 //
-// Two frames are made elsewhere, because their vectors are others: the image of a close-up (evaluation/close_up.cpp)
-// has the handle's axis upright, and the planes around a piece of a cylinder (shell/cylinder_window.cpp) go through the
-// sensor. Where a normal is known, its one completion axis.cross(normal) is written out.
+// Two frames are made elsewhere, because their vectors are others. The camera of a close-up (evaluation/close_up.cpp)
+// looks along the axis, with the normal upwards. The planes around a piece of a cylinder (shell/cylinder_window.cpp) go
+// through the sensor. A frame whose normal is known needs one vector more: axis.cross(normal) is written out there.
 
 /// Two directions at right angles to an axis and to each other: `first`, `second` and the axis are right-handed.
 struct AcrossAxis
