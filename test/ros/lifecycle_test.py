@@ -141,6 +141,18 @@ class Lifecycle(unittest.TestCase):
                     self.assertIn(part, node.output())
             rospy.delete_param('pcd_publisher')
 
+    def test_says_why_no_clouds_arrive(self):
+        listener = Listener('localizer/statistics', LocalizationStatistics)
+        with publisher(scene('table'), rate=5, topic='elsewhere'), localizer() as node:
+            complaint = 'no clouds arrive on /points (nobody publishes there; topics with clouds: /elsewhere)'
+            wait_until(lambda: complaint in node.output(), 'complaint')
+        with publisher(scene('table'), rate=0.001), localizer() as node:
+            listener.wait()
+            # One cloud may be all that there is.
+            time.sleep(6)
+            self.assertNotIn('no clouds arrive', node.output())
+        listener.close()
+
     def test_eager_node_subscribes_without_a_listener(self):
         with localizer('_lazy:=false'):
             wait_until(lambda: '/points' in str(rosgraph.Master(rospy.get_name()).getSystemState()[1]), 'subscription')

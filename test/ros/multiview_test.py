@@ -170,6 +170,28 @@ class Multiview(unittest.TestCase):
             node.statistics.wait()
             self.assertEqual(node.interrupt(), 0, node.output())
 
+    def test_stamps_that_stand_still(self):
+        with MultiCamera(2, '_target_frame:=room', '_sampling/samples:=100', '_sync_slop:=0.1') as node:
+            self.connect(2)
+            stamp = rospy.Time.now()
+            end = time.monotonic() + 20 * TIME_FACTOR
+            while len(node.statistics.messages()) < 6 and time.monotonic() < end:
+                self.publish(range(2), stamp)
+                time.sleep(0.3)
+            self.assertGreaterEqual(len(node.statistics.messages()), 6)
+
+    def test_two_cameras_of_one_frame_are_refused(self):
+        with MultiCamera(2, '_target_frame:=room') as node:
+            self.connect(2)
+            stamp = rospy.Time.now()
+            for cloud, points in zip(self.clouds, self.publishers[:2]):
+                cloud = copy.copy(cloud)
+                cloud.header = copy.copy(cloud.header)
+                cloud.header.stamp, cloud.header.frame_id = stamp, 'camera_1'
+                points.publish(cloud)
+            wait_until(lambda: "/points_1 and /points_2 both have the frame 'camera_1'" in node.output(), 'complaint')
+            self.assertEqual(node.statistics.messages(), [])
+
     def test_a_silent_camera_is_named(self):
         with MultiCamera(3, '_target_frame:=room') as node:
             self.connect(3)

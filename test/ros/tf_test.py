@@ -242,6 +242,18 @@ class Tf(unittest.TestCase):
             self.publish(stamp)
             self.assertEqual(localizer.answer('statistics', stamp).clouds_without_transform, 0)
 
+    def test_a_frame_of_two_clocks_that_nobody_asks_for(self):
+        with Localizer('localizer', '_target_frame:=map', '_sampling/samples:=100') as localizer:
+            self.connect()
+            for i in range(10):
+                stamp = rospy.Time.now()
+                self.moving.publish([transform('map', 'room', (0, 0, 0), stamp=stamp)])
+                for ahead in (1.0, 0.0):
+                    self.moving.publish([transform('room', 'gripper', (0, 0, 0), stamp=stamp + rospy.Duration(ahead))])
+                time.sleep(0.05)  # until they have arrived: nothing tells
+                statistics = localizer.answer('statistics', self.publish(stamp))
+                self.assertEqual(statistics.clouds_without_transform, 0)
+
     def test_stamps_at_the_end_of_time(self):
         end, beyond = rospy.Time(2 ** 32 - 1, 999999999), rospy.Time(2 ** 32 - 12)
         beyond.nsecs = 2 ** 32 - 1  # as nothing keeps a sender from writing them

@@ -193,6 +193,38 @@ class Tracking(unittest.TestCase):
                 self.assertEqual((handle.hits, handle.unseen_for), (1, 0))
             self.assertEqual(ids(self.handles(node, self.empty, -98)), [])
 
+    def test_stamps_that_stand_still(self):
+        with Node('localizer_node', '_tracking/lifetime:=0.5') as node:
+            self.connect()
+            messages = node.listeners['handles'].messages
+            answered = 0
+
+            def answer(cloud):
+                nonlocal answered
+                self.publish(cloud, 0)
+                answered += 1
+                wait_until(lambda: len(messages()) == answered, 'answer')
+                return messages()[-1]
+
+            for i in range(4):
+                self.assertGreaterEqual(len(answer(self.table[i % VARIANTS]).handles), 3)
+            # Then the time of arrival counts: what is not seen for its lifetime goes.
+            end = time.monotonic() + 1.5
+            while time.monotonic() < end:
+                last = answer(self.empty)
+                time.sleep(0.05)
+            self.assertEqual(ids(last), [])
+
+    def test_late_clouds_have_nothing_forgotten(self):
+        with Node('localizer_node') as node:
+            self.connect()
+            first = self.handles(node, self.table[0], 0)
+            best = {handle.id for handle in sorted(first.handles, key=lambda h: -h.score)[:3]}
+            for i in range(1, 12):
+                late = 0.2 if i % 2 else 0
+                message = self.handles(node, self.table[i % VARIANTS], i * PERIOD - late)
+                self.assertTrue(best <= set(ids(message)), 'cloud %d: %s of %s' % (i, ids(message), best))
+
     def test_handles_are_tracked_in_the_fixed_frame(self):
         # The same cloud from a camera that moves: in the room nothing is where it was.
         with Node('localizer_node', '_fixed_frame:=room', '_transform_timeout:=5') as node:

@@ -3,6 +3,7 @@
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/handle.h"
 #include "grasp_affordances/handle_tracker.h"
+#include "nodelets/roscpp/cloud_clock.h"
 
 #include <std_msgs/Header.h>
 #include <Eigen/Geometry>
@@ -20,18 +21,21 @@ struct FixedFrame
   Eigen::Isometry3d T_fixed_output = Eigen::Isometry3d::Identity();
 };
 
-/// Tracks the handles of a node in a fixed frame. Begins anew where time goes back, which the stamps of the clouds tell
-/// (see TimeJumps), and where the frame that they are tracked in is another one. Of one thread.
+/// Tracks the handles of a node in a fixed frame. It begins anew where time goes back (see CloudClock), and where the
+/// frame that handles are tracked in is another one. Of one thread.
 class HandleTracking
 {
 public:
   /// The handles that are known after a cloud, by id, in the frame of the outputs. They remain valid until the next
   /// call.
-  /// @param found  in the frame of the header, whose stamp counts; where that is zero, the time of the call does
+  /// @param found    in the frame of the header
+  /// @param arrival  of the cloud: its time, where its stamp tells none (see CloudClock)
   const std::vector<GraspHandle>& update(const std::vector<GraspHandle>& found, const TrackingConfig& config,
-                                         const std_msgs::Header& header, const FixedFrame& fixed_frame);
+                                         const std_msgs::Header& header, CloudClock::Arrival arrival,
+                                         const FixedFrame& fixed_frame);
 
 private:
+  CloudClock clock_;
   HandleTracker tracker_;
   std::string frame_;
   std::vector<GraspHandle> handles_;

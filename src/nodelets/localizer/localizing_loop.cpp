@@ -158,7 +158,7 @@ void LocalizingLoop::localize(const Arrival& arrival, const std::optional<Region
     ROS_WARN_STREAM_NAMED(name_, joined(localization.warnings));
   }
   const std::vector<GraspHandle>& known =
-      handle_tracking_.update(localization.handles, config.tracking, header, frames.fixed);
+      handle_tracking_.update(localization.handles, config.tracking, header, arrival.time, frames.fixed);
   trigger_.answer(
       publishers_.publish({localization, known, config, header, frames.workspace_frame, arrival.time}, counters_));
 }

@@ -2,6 +2,9 @@
 
 #include "grasp_affordances/point_cloud2.h"
 #include "nodelets/localizer/input_topic.h"
+#include "nodelets/localizer/silence.h"
+
+#include <ros/console.h>
 
 namespace grasp_affordances
 {
@@ -21,20 +24,33 @@ std::string SingleCloud::awaited() const
 
 void SingleCloud::subscribe(const Receiver& receiver)
 {
+  received_ = reported_ = 0;
   camera_info_.subscribe(node_handle_, camera_info_topic_);
   points_ = node_handle_.subscribe<sensor_msgs::PointCloud2>(
       points_topic_, kCloudQueue, gate_.guarded([this, receiver](const sensor_msgs::PointCloud2ConstPtr& message) {
+        ++received_;
         if (time_jumps_.wentBack(message->header.stamp)) {
           receiver.time_is_back(message->header.stamp);
         }
         receiver.receive({message});
       }));
+  silence_ = node_handle_.createWallTimer(ros::WallDuration(kSilence),
+                                          gate_.guarded([this](const ros::WallTimerEvent&) { complainOfSilence(); }));
 }
 
 void SingleCloud::unsubscribe()
 {
+  silence_.stop();
   points_.shutdown();
   camera_info_.unsubscribe();
+}
+
+void SingleCloud::complainOfSilence()
+{
+  if (received_ == reported_ && received_ != 1) {
+    ROS_WARN_STREAM_NAMED(name_, "nothing is localized: no clouds arrive on " << describeSilence(points_));
+  }
+  reported_ = received_;
 }
 
 void SingleCloud::close()

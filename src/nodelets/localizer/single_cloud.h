@@ -8,14 +8,17 @@
 
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
+#include <ros/wall_timer.h>
 
+#include <cstdint>
 #include <string>
 
 namespace grasp_affordances
 {
 
 /// The clouds of one camera. Subscribed, in the parent namespace of the node's name: points (sensor_msgs/PointCloud2)
-/// and camera_info (sensor_msgs/CameraInfo, optional). The common frame is that of the cloud.
+/// and camera_info (sensor_msgs/CameraInfo, optional). The common frame is that of the cloud. Warns where no cloud
+/// arrives, or no more; a single cloud may be all that somebody publishes.
 class SingleCloud : public CloudInput
 {
 public:
@@ -29,13 +32,21 @@ public:
   Gathered gather(const Clouds& messages) override;
 
 private:
+  void complainOfSilence();
+
   std::string name_, points_topic_, camera_info_topic_;
   ros::NodeHandle node_handle_;
   ros::Subscriber points_;
   CameraInfoInput camera_info_;
-  TimeJumps time_jumps_;  // of the callback for clouds
-  Cloud cloud_;           // of the worker's thread
-  CallbackGate gate_;     // of clouds
+  ros::WallTimer silence_;
+
+  // Of the callback for clouds and of the timer, which take turns.
+  TimeJumps time_jumps_{ros::Duration(kDisorder)};
+  std::uint64_t received_ = 0;  // since it subscribed
+  std::uint64_t reported_ = 0;  // of these, before the timer's last call
+
+  Cloud cloud_;        // of the worker's thread
+  CallbackGate gate_;  // of clouds
 };
 
 }  // namespace grasp_affordances

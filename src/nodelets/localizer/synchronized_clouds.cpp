@@ -1,11 +1,14 @@
 #include "nodelets/localizer/synchronized_clouds.h"
 
+#include "core/cloud/range_image.h"
 #include "grasp_affordances/point_cloud2.h"
 #include "nodelets/localizer/input_topic.h"
+#include "nodelets/localizer/silence.h"
 
 #include <ros/console.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 
 namespace grasp_affordances
@@ -13,7 +16,12 @@ namespace grasp_affordances
 namespace
 {
 
-constexpr double kSilence = 5.0;  // s of wall-clock time without a set of clouds, before the node warns
+/// Whether a cloud is in the optical frame of the sensor that measured it.
+bool isInSensorFrame(const Cloud& cloud)
+{
+  std::string warning;
+  return RangeImage::create(cloud, warning).has_value();
+}
 
 }  // namespace
 
@@ -71,17 +79,44 @@ void SynchronizedClouds::receive(std::size_t view, const sensor_msgs::PointCloud
     startAgain(message->header.stamp);
   }
   views_[view].newest = message;
-  synchronizer_.add(view, message);
+  const ros::Time time = timeOf(view, message->header.stamp);
+  synchronizer_.add(view, message, time);
+}
+
+/// The time by which a cloud that has just arrived is put together with others.
+ros::Time SynchronizedClouds::timeOf(std::size_t view, const ros::Time& stamp)
+{
+  const CloudClock::Arrival now = std::chrono::steady_clock::now();
+  views_[view].clock.read(stamp, now);
+  const bool by_arrival =
+      std::any_of(views_.begin(), views_.end(), [](const View& any) { return any.clock.countsArrivals(); });
+  if (by_arrival != by_arrival_) {
+    by_arrival_ = by_arrival;
+    synchronizer_.restart();
+  }
+  if (!by_arrival) {
+    return stamp;
+  }
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(std::chrono::nanoseconds(now.time_since_epoch()).count()));
+  return time;
 }
 
 /// Once for all cameras: the first one whose time goes back speaks for the others.
 void SynchronizedClouds::startAgain(const ros::Time& stamp)
 {
-  for (View& view : views_) {
-    view.time_jumps = TimeJumps();
-  }
-  synchronizer_.restart();
+  forgetTimes();
   receiver_.time_is_back(stamp);
+}
+
+void SynchronizedClouds::forgetTimes()
+{
+  for (View& view : views_) {
+    view.time_jumps = TimeJumps(ros::Duration(kDisorder));
+    view.clock = CloudClock();
+  }
+  by_arrival_ = false;
+  synchronizer_.restart();
 }
 
 void SynchronizedClouds::complainOfSilence()
@@ -93,7 +128,7 @@ void SynchronizedClouds::complainOfSilence()
       earliest = std::min(earliest, view.newest->header.stamp);
       latest = std::max(latest, view.newest->header.stamp);
     } else {
-      silent += (silent.empty() ? "" : ", ") + view.points_topic;
+      silent += (silent.empty() ? "" : ", ") + describeSilence(view.points);
     }
     view.newest.reset();
   }
@@ -104,6 +139,21 @@ void SynchronizedClouds::complainOfSilence()
                                      << difference << " s, which is more than sync_slop, " << sync_slop_ << " s");
   }
   any_set_ = false;
+}
+
+/// Two sensors cannot be in one place. Clouds that were brought into a common frame before may share it.
+void SynchronizedClouds::refuseSharedFrames(const Clouds& messages) const
+{
+  for (std::size_t i = 1; i < views_.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::string& frame = messages[i]->header.frame_id;
+      if (frame == messages[j]->header.frame_id && isInSensorFrame(views_[i].cloud) &&
+          isInSensorFrame(views_[j].cloud)) {
+        throw CloudError(views_[j].points_topic + " and " + views_[i].points_topic + " both have the frame '" + frame +
+                         "': each camera needs an optical frame of its own");
+      }
+    }
+  }
 }
 
 CloudInput::Gathered SynchronizedClouds::gather(const Clouds& messages)
@@ -121,6 +171,7 @@ CloudInput::Gathered SynchronizedClouds::gather(const Clouds& messages)
     result.clouds.push_back(&view.cloud);
     result.header.stamp = std::max(result.header.stamp, messages[i]->header.stamp);
   }
+  refuseSharedFrames(messages);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "nodelets/localizer/cloud_input.h"
 #include "nodelets/parameters/parameters_ros.h"
 #include "nodelets/roscpp/callback_gate.h"
+#include "nodelets/roscpp/cloud_clock.h"
 #include "nodelets/roscpp/cloud_synchronizer.h"
 #include "nodelets/roscpp/ros_time.h"
 
@@ -22,7 +23,8 @@ namespace grasp_affordances
 
 /// The clouds of several cameras whose stamps differ by little: a set, one cloud of each camera. Subscribed, in the
 /// parent namespace of the node's name: points_1, points_2, ... (sensor_msgs/PointCloud2) and camera_info_1, ...
-/// (sensor_msgs/CameraInfo, optional). The common frame is the target frame. Warns where no set comes about.
+/// (sensor_msgs/CameraInfo, optional). The common frame is the target frame. Warns where no set comes about. Where the
+/// stamps of a camera do not advance, all clouds are put together by the times of their arrival (see CloudClock).
 class SynchronizedClouds : public CloudInput
 {
 public:
@@ -44,7 +46,8 @@ private:
     CameraInfoInput camera_info;
 
     // Of the callbacks for clouds and of the timer, which take turns.
-    TimeJumps time_jumps;
+    TimeJumps time_jumps{ros::Duration(kDisorder)};
+    CloudClock clock;
     sensor_msgs::PointCloud2ConstPtr newest;  // since the timer's last call
 
     Cloud cloud;  // of the worker's thread
@@ -52,7 +55,10 @@ private:
 
   void receive(std::size_t view, const sensor_msgs::PointCloud2ConstPtr& message);
   void startAgain(const ros::Time& stamp);
+  void forgetTimes();
+  ros::Time timeOf(std::size_t view, const ros::Time& stamp);
   void complainOfSilence();
+  void refuseSharedFrames(const Clouds& messages) const;
 
   const std::string name_;
   const std::string target_frame_;
@@ -64,7 +70,8 @@ private:
   // Of the callbacks for clouds and of the timer.
   Receiver receiver_;
   CloudSynchronizer synchronizer_;
-  bool any_set_ = false;  // since the timer's last call
+  bool any_set_ = false;     // since the timer's last call
+  bool by_arrival_ = false;  // are the clouds put together
 
   CallbackGate gate_;  // of clouds
 };

@@ -4,6 +4,7 @@
 
 #include <ros/duration.h>
 #include <boost/function.hpp>
+#include <boost/make_shared.hpp>
 #include <boost/shared_ptr.hpp>
 
 #include <array>
@@ -32,7 +33,7 @@ bool areFarApart(const ros::Time& a, const ros::Time& b)
 }
 
 template <typename Synchronizer, int input>
-void addTo(Synchronizer& synchronizer, const CloudSynchronizer::Points& cloud)
+void addTo(Synchronizer& synchronizer, const boost::shared_ptr<const TimedCloud>& cloud)
 {
   synchronizer.template add<input>(cloud);
 }
@@ -51,36 +52,36 @@ CloudSynchronizer::CloudSynchronizer(std::size_t views, double slop, std::functi
   restart();
 }
 
-void CloudSynchronizer::add(std::size_t view, const Points& cloud)
+void CloudSynchronizer::add(std::size_t view, const Points& cloud, const ros::Time& time)
 {
   static constexpr auto kAdders = adders<Synchronizer>(std::make_integer_sequence<int, kMostViews>());
-  const ros::Time& stamp = cloud->header.stamp;
-  if (!leavesRoom(stamp)) {
+  if (!leavesRoom(time)) {
     return;  // it adds to stamps, too
   }
-  if (first_stamp_ && areFarApart(stamp, *first_stamp_)) {
+  if (first_time_ && areFarApart(time, *first_time_)) {
     restart();
   }
-  first_stamp_ = first_stamp_.value_or(stamp);
-  kAdders[view](*synchronizer_, cloud);
+  first_time_ = first_time_.value_or(time);
+  const auto timed = boost::make_shared<const TimedCloud>(TimedCloud{time, cloud});
+  kAdders[view](*synchronizer_, timed);
   if (view == 0) {
     for (std::size_t unused = views_; unused < kMostViews; ++unused) {
-      kAdders[unused](*synchronizer_, cloud);
+      kAdders[unused](*synchronizer_, timed);
     }
   }
 }
 
 void CloudSynchronizer::restart()
 {
-  using P = const Points&;
+  using P = const boost::shared_ptr<const TimedCloud>&;
   using Nothing = const boost::shared_ptr<const message_filters::NullType>&;
-  first_stamp_.reset();
+  first_time_.reset();
   synchronizer_ = std::make_unique<Synchronizer>(Policy(kQueue));
   synchronizer_->setMaxIntervalDuration(ros::Duration(slop_));
   synchronizer_->setInterMessageLowerBound(ros::Duration(kLeastPeriod));
   boost::function<void(P, P, P, P, P, P, P, P, Nothing)> receive = [this](P a, P b, P c, P d, P e, P f, P g, P h,
                                                                           Nothing) {
-    Set set{a, b, c, d, e, f, g, h};
+    Set set{a->cloud, b->cloud, c->cloud, d->cloud, e->cloud, f->cloud, g->cloud, h->cloud};
     set.resize(views_);
     take_(set);
   };

@@ -14,13 +14,17 @@ constexpr double kPeriod = 5.0;  // s
 
 }  // namespace
 
+bool isEarlier(const ros::Time& stamp, const ros::Time& than, ros::Duration tolerance)
+{
+  return stamp < than && than.toNSec() - stamp.toNSec() > static_cast<std::uint64_t>(tolerance.toNSec());
+}
+
 bool TimeJumps::wentBack(const ros::Time& stamp)
 {
   if (stamp.isZero()) {
     return false;
   }
-  const bool back =
-      stamp < latest_ && latest_.toNSec() - stamp.toNSec() > static_cast<std::uint64_t>(tolerance_.toNSec());
+  const bool back = isEarlier(stamp, latest_, tolerance_);
   latest_ = back ? stamp : std::max(latest_, stamp);
   return back;
 }

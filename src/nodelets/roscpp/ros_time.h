@@ -19,6 +19,14 @@ inline bool leavesRoom(const ros::Time& stamp)
   return stamp.sec < ros::TIME_MAX.sec - kRoom;
 }
 
+/// s by which stamps may be out of order: several publishers, or several threads, may share a topic. What is older by
+/// more is of another run.
+constexpr double kDisorder = 0.5;
+
+/// Whether a stamp is earlier than another one by more than a tolerance. A stamp of zero is none, and no other is
+/// earlier than that.
+bool isEarlier(const ros::Time& stamp, const ros::Time& than, ros::Duration tolerance);
+
 /// Notices when the stamps of a stream of messages go back, as where a bag is played again from its start or a
 /// simulation is reset: whatever was learnt from later stamps is then of another run. Judged by the messages alone,
 /// because a looping `rosbag play` sends the first of them before it sets the ROS clock back, and without --clock never

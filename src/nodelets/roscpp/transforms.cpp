@@ -21,9 +21,6 @@ constexpr std::uint32_t kSubscriberQueue = 100;
 constexpr std::uint32_t kThreads = 1;
 constexpr std::chrono::milliseconds kShutdownPoll{50};  // nothing tells of the end of the node
 
-/// s by which the transforms of one frame may arrive out of order: several nodes may publish them. tf2 sorts them.
-constexpr double kDisorder = 0.5;
-
 /// tf2 knows no leading slash, with which older drivers and bags name their frames.
 std::string frameName(const std::string& name)
 {
@@ -89,7 +86,9 @@ Eigen::Isometry3d Transforms::lookup(const std::string& target_frame, const std:
     changed_.wait_until(lock, std::min<Deadline>(deadline, now + kShutdownPoll));
   }
   try {
-    return isometry(buffer_.lookupTransform(target, source, stamp));
+    const geometry_msgs::TransformStamped transform = buffer_.lookupTransform(target, source, stamp);
+    remember(target, source, stamp);
+    return isometry(transform);
   } catch (const tf2::TransformException&) {
     throw;
   } catch (const std::exception& error) {  // roscpp's: from the known stamps it is farther than a Duration can be
@@ -116,6 +115,10 @@ void Transforms::close()
 void Transforms::receive(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool fixed)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (clockWentBack() && !restarted_) {
+    forget();
+    restarted_ = true;
+  }
   for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
     if (!leavesRoom(transform.header.stamp)) {  // tf2 adds the length of its memory
       if (refusals_.due()) {
@@ -124,7 +127,11 @@ void Transforms::receive(const ros::MessageEvent<const tf2_msgs::TFMessage>& eve
       }
       continue;
     }
-    if (!fixed && wentBack(transform)) {
+    if (!fixed && wentBack(transform) && asked_.count(frameName(transform.child_frame_id)) > 0) {
+      if (restarts_.due()) {
+        ROS_INFO_STREAM("transforms begin anew: those of " << transform.child_frame_id << " go back to "
+                                                           << transform.header.stamp);
+      }
       forget();
       restarted_ = true;
       wentBack(transform);  // the first of the new run
@@ -138,6 +145,30 @@ bool Transforms::wentBack(const geometry_msgs::TransformStamped& transform)
 {
   const auto stream = streams_.try_emplace(transform.child_frame_id, ros::Duration(kDisorder)).first;
   return stream->second.wentBack(transform.header.stamp);
+}
+
+bool Transforms::clockWentBack()
+{
+  if (!ros::Time::isSimTime()) {
+    return false;
+  }
+  const ros::Time now = ros::Time::now();
+  const bool back = isEarlier(now, clock_, ros::Duration(kDisorder));
+  clock_ = now;
+  return back;
+}
+
+/// Keeps the names of the frames on the way between two that are related at this time.
+void Transforms::remember(const std::string& target, const std::string& source, const ros::Time& stamp)
+{
+  constexpr int kDeepest = 1000;  // as in tf2; frames above those that are related may form a loop
+  for (std::string frame : {target, source}) {
+    std::string parent;
+    for (int depth = 0; depth < kDeepest && buffer_._getParent(frame, stamp, parent); ++depth) {
+      asked_.insert(frame);
+      frame = parent;
+    }
+  }
 }
 
 void Transforms::forget()

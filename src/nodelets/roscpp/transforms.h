@@ -18,6 +18,7 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 
 namespace grasp_affordances
@@ -28,7 +29,9 @@ namespace grasp_affordances
 ///
 /// In place of tf2_ros::TransformListener, which forgets what it knows when the ROS clock is set back: with a looping
 /// bag that happens after the first transforms of the new round have arrived, and they would be lost (see TimeJumps).
-/// Its Buffer waits by the ROS clock, which may stand still.
+/// Its Buffer waits by the ROS clock, which may stand still. Here all is forgotten as soon as the ROS clock, or the
+/// stamps of a frame that lookup() was asked for, go back. Frames that nobody asked for have no say: two publishers
+/// with different clocks may share one of them.
 class Transforms
 {
 public:
@@ -55,8 +58,8 @@ public:
   Eigen::Isometry3d lookup(const std::string& target_frame, const std::string& source_frame, const ros::Time& stamp,
                            Deadline deadline);
 
-  /// Where the stamps of the data to be transformed went back: forgets the moving transforms, unless these went back on
-  /// their own account since the last call.
+  /// Where the stamps of the data to be transformed went back: forgets the moving transforms, unless these, or the ROS
+  /// clock, went back on their own account since the last call.
   void restart();
 
   /// Ends every wait, for good.
@@ -65,13 +68,18 @@ public:
 private:
   void receive(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool fixed);
   bool wentBack(const geometry_msgs::TransformStamped& transform);
+  bool clockWentBack();
+  void remember(const std::string& target, const std::string& source, const ros::Time& stamp);
   void forget();
 
   std::mutex mutex_;  // guards the following
   std::condition_variable changed_;
   tf2::BufferCore buffer_;
   std::map<std::string, TimeJumps> streams_;  // of the moving transforms, by child frame
+  std::set<std::string> asked_;               // child frames between those that lookup() was asked for
+  ros::Time clock_;                           // the ROS clock when it was last looked at, where it is simulated
   Throttle refusals_;
+  Throttle restarts_;
   bool restarted_ = false;
   bool closed_ = false;
 
