@@ -37,8 +37,8 @@ struct BagRegion
 
 /// Reads the messages of one type from a bag of version 2.0. Nothing in the file is trusted: every length, count and
 /// position must stay within what holds it; records must not overlap; each indexed message must exist, be indexed once,
-/// and belong to a declared connection; names must not hold control characters; a compressed chunk must have the content
-/// that it states. One thread at a time.
+/// and belong to a declared connection; names must not hold control characters; a compressed chunk must have the
+/// content that it states. One thread at a time.
 class BagFile
 {
 public:
@@ -79,7 +79,7 @@ private:
   BagRegion file_;
   std::map<std::uint32_t, BagConnection> connections_;
   std::vector<BagEntry> entries_;
-  std::vector<Chunk> chunks_;  // those with messages of the type
+  std::vector<Chunk> chunks_;   // those with messages of the type
   std::uint64_t position_ = 0;  // in the index of the bag
   std::size_t opened_;          // the chunk whose content is at hand
   BagRegion content_;

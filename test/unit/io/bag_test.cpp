@@ -1,12 +1,12 @@
 #include "io/bag.h"
 #include "support/bags.h"
 
-#include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/query.h>
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
+#include <boost/make_shared.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -71,8 +71,9 @@ TEST_F(BagTest, choosesAmongTopics)
 TEST_F(BagTest, readsTopicsThatAreNoNamesOfRos)
 {
   std_msgs::String word;
-  for (const std::string& odd : {std::string("/my points"), std::string("T\u00fcr/Punkte"), std::string("/\u70b9\u7fa4"),
-                                 std::string("a, 'b' \xff\xc2\x9b"), std::string(400, 'x')}) {
+  for (const std::string& odd :
+       {std::string("/my points"), std::string("T\u00fcr/Punkte"), std::string("/\u70b9\u7fa4"),
+        std::string("a, 'b' \xff\xc2\x9b"), std::string(400, 'x')}) {
     SCOPED_TRACE(odd);
     rosbag::Bag bag;
     bag.open(path(), rosbag::bagmode::Write);

@@ -139,7 +139,8 @@ TEST_F(PcdTest, namesUnknownLinesOfTheHeaderWhereTheFileIsMalformed)
   header = Header();
   header.fields = "FIELDS x y z i\nSIZE 4 4 4 4\nTYPE F F F F\nCUONT 1 1 1 2\n";
   header.data = "DATA ascii\n";
-  expectRefused(write(header.text() + "1 2 3 4 5\n6 7 8 9 0\n"), "5 values, not 4; unknown keys in the header: 'CUONT'");
+  expectRefused(write(header.text() + "1 2 3 4 5\n6 7 8 9 0\n"),
+                "5 values, not 4; unknown keys in the header: 'CUONT'");
   header = Header();
   header.data = "DAAT ascii\n";
   expectRefused(write(header.text() + "\n"), "without a DATA line; unknown keys in the header: 'DAAT'");
@@ -161,12 +162,15 @@ TEST_F(PcdTest, quotesWhatIsNoNumber)
 
 TEST_F(PcdTest, saysWhatAFileIsThatIsNone)
 {
-  expectRefused(write("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n"), "no PCD file and no bag, but a PLY file");
+  expectRefused(write("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n"),
+                "no PCD file and no bag, but a PLY file");
   expectRefused(write("hello world\nDATA is what this text is about\n"), "no PCD file and no bag, but text");
   expectRefused(write("version https://git-lfs.github.com/spec/v1\noid sha256:0\n"), "a pointer of Git LFS");
   expectRefused(write("#ROSBAG V2.0\nDATA\n"), "no PCD file, but a bag");
   expectRefused(write("\x1f\x8b\x08\n"), "but compressed by gzip");
-  expectRefused(write("\x7f" "ELF\n"), "but a program");
+  expectRefused(write("\x7f"
+                      "ELF\n"),
+                "but a program");
   expectRefused(write(std::string("\0\1\2\n", 4)), "but binary data");
 }
 

@@ -33,7 +33,11 @@ TEST(Printable, isShort)
 {
   EXPECT_EQ(printable("12345678", 8), "12345678");
   EXPECT_EQ(printable("123456789", 8), "12345...");
-  EXPECT_EQ(printable("1234\xC3\xBC" "6789", 8), "1234...") << "no half characters";
+  EXPECT_EQ(printable("1234\xC3\xBC"
+                      "6789",
+                      8),
+            "1234...")
+      << "no half characters";
   EXPECT_EQ(printable(std::string(1000000, '\n')).size(), 59U) << "fourteen of them and three dots";
 }
 

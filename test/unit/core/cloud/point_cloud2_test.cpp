@@ -201,8 +201,8 @@ TYPED_TEST(PointCloud2Test, toleratesAWrongRowStepWhereTheDataIsExact)
     for (std::size_t i = 0; i < std::size_t{3} * height; ++i) {
       setPoint(good, i / 3, i % 3, 1.0F + i, 10.0F + i, 100.0F + i);
     }
-    for (const std::uint32_t step : {0U, 1U, good.point_step, 640 * good.point_step,
-                                     std::numeric_limits<std::uint32_t>::max()}) {
+    for (const std::uint32_t step :
+         {0U, 1U, good.point_step, 640 * good.point_step, std::numeric_limits<std::uint32_t>::max()}) {
       SCOPED_TRACE(step);
       auto message = good;
       message.row_step = step;
