@@ -41,8 +41,21 @@ struct PointCloud2Layout
   std::size_t data_size = 0;  ///< bytes
 };
 
+/// Bytes from the start of a row to that of the next one. Where the data is exactly width x height x point_step, rows
+/// follow one another: row_step can then say nothing else, and what drivers write there is often wrong.
+/// @param cloud  a PointCloud2 message, or a PointCloud2Layout; its row_step need not fit the rest of it
+/// @param data_size  of its data, bytes
+template <class PointCloud2>
+std::uint64_t rowStep(const PointCloud2& cloud, std::size_t data_size)
+{
+  const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
+  const bool exact = row > 0 && data_size % row == 0 && data_size / row == cloud.height;
+  return exact ? row : cloud.row_step;
+}
+
 /// Copies the points; points that are not measured become NaN. Rows may be padded and coordinates unaligned. A width or
-/// height of zero makes an empty cloud, whatever the rest of the layout says.
+/// height of zero makes an empty cloud, whatever the rest of the layout says. A wrong row_step is no error where the
+/// data is exactly width x height x point_step.
 /// @throw CloudError for a layout that contradicts itself, that lacks x, y or z of FLOAT32 or FLOAT64, or that has more
 /// than kMostPoints. Nothing has been allocated then, and the cloud is as it was.
 void cloudFromLayout(const PointCloud2Layout& layout, Cloud& cloud);

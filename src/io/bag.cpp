@@ -1,17 +1,22 @@
 #include "io/bag.h"
 
-#include "io/bag_check.h"
+#include "io/bag_file.h"
+#include "io/content_kind.h"
+#include "io/printable.h"
 
 #include <ros/serialization.h>
-#include <rosbag/bag.h>
-#include <rosbag/query.h>
-#include <rosbag/view.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <map>
+#include <fstream>
+#include <iterator>
 #include <new>
+#include <set>
+#include <system_error>
 #include <vector>
 
 namespace grasp_affordances
@@ -72,101 +77,123 @@ private:
   std::size_t position_ = 0;
 };
 
-std::string join(const std::vector<std::string>& words)
+/// As a shell takes it: in quotes where it is no name of ROS.
+std::string shownTopic(const std::string& topic)
+{
+  constexpr std::size_t kLongest = 200;
+  const bool plain = std::all_of(topic.begin(), topic.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '_';
+  });
+  const std::string text = printable(topic, kLongest);
+  return plain && !topic.empty() ? text : "'" + text + "'";
+}
+
+std::string join(const std::set<std::string>& topics)
 {
   constexpr std::size_t kLongest = 500;
   std::string text;
-  for (const std::string& word : words) {
-    if (text.size() + word.size() > kLongest) {
+  for (const std::string& topic : topics) {
+    const std::string shown = shownTopic(topic);
+    if (text.size() + shown.size() > kLongest) {
       return text + ", ...";
     }
-    text += (text.empty() ? "" : ", ") + word;
+    text += (text.empty() ? "" : ", ") + shown;
   }
   return text;
 }
 
-std::string chooseTopic(const rosbag::Bag& bag, const std::string& wanted)
+std::string chooseTopic(const BagFile& bag, const std::string& wanted)
 {
-  std::map<std::string, std::string> types;
-  rosbag::View all(bag);
-  for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
-    types[connection->topic] = connection->datatype;
-  }
-  std::vector<std::string> topics;
-  for (const auto& [topic, type] : types) {
-    if (type == kType) {
-      topics.push_back(topic);
+  std::set<std::string> topics;
+  std::string other_type;  // of the topic that is wanted
+  for (const auto& [number, connection] : bag.connections()) {
+    if (connection.type == kType && connection.messages > 0) {
+      topics.insert(connection.topic);
+    } else if (connection.type != kType && connection.topic == wanted) {
+      other_type = connection.type;
     }
   }
-  const auto found = types.find(wanted);
-  if (!wanted.empty() && found != types.end() && found->second != kType) {
-    throw CloudError("topic " + wanted + " holds " + found->second + ", not " + kType);
+  if (!wanted.empty() && topics.count(wanted) != 0) {
+    return wanted;
+  }
+  if (!wanted.empty() && !other_type.empty()) {
+    throw CloudError("topic " + shownTopic(wanted) + " holds " + printable(other_type) + ", not " + kType);
   }
   if (topics.empty()) {
     throw CloudError(std::string("the bag has no topic of ") + kType);
   }
-  if (!wanted.empty() && found == types.end()) {
-    throw CloudError("the bag has no topic " + wanted + "; its topics of " + kType + ": " + join(topics));
+  if (!wanted.empty()) {
+    throw CloudError("the bag has no topic " + shownTopic(wanted) + "; its topics of " + kType + ": " + join(topics));
   }
-  if (wanted.empty() && topics.size() > 1) {
+  if (topics.size() > 1) {
     throw CloudError("the bag has several topics of " + std::string(kType) + ", choose one: " + join(topics));
   }
-  return wanted.empty() ? topics.front() : wanted;
+  return *topics.begin();
 }
 
-void readMessage(const rosbag::MessageInstance& instance, std::vector<std::uint8_t>& bytes,
-                 sensor_msgs::PointCloud2& message)
+/// The messages of a topic in the order of recording.
+std::vector<BagEntry> messagesOf(const BagFile& bag, const std::string& topic)
 {
-  if (instance.getMD5Sum() != ros::message_traits::md5sum<sensor_msgs::PointCloud2>()) {
+  std::vector<BagEntry> messages;
+  std::copy_if(bag.entries().begin(), bag.entries().end(), std::back_inserter(messages),
+               [&](const BagEntry& entry) { return bag.connections().at(entry.connection).topic == topic; });
+  std::stable_sort(messages.begin(), messages.end(),
+                   [](const BagEntry& a, const BagEntry& b) { return a.time < b.time; });
+  return messages;
+}
+
+void readMessage(const BagConnection& connection, std::vector<std::uint8_t>& bytes, sensor_msgs::PointCloud2& message)
+{
+  if (connection.md5sum != ros::message_traits::md5sum<sensor_msgs::PointCloud2>()) {
     throw CloudError(std::string("the message is of another version of ") + kType);
   }
-  bytes.resize(instance.size());
-  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  instance.write(stream);
   SerializedCloud(bytes).deserialize(message);
 }
 
-void visitMessages(rosbag::View& view, const BagVisitor& visitor)
+void visitMessages(BagFile& bag, const std::vector<BagEntry>& messages, const BagVisitor& visitor)
 {
-  const std::size_t count = view.size();
-  if (count == 0) {
-    throw CloudError("the topic has no messages");
-  }
   std::vector<std::uint8_t> bytes;
   sensor_msgs::PointCloud2 message;
-  std::size_t index = 0;
-  for (const rosbag::MessageInstance& instance : view) {
+  for (std::size_t index = 0; index < messages.size(); ++index) {
+    const BagEntry& entry = messages[index];
+    bag.read(entry, bytes);
     std::string reason;
     try {
-      readMessage(instance, bytes, message);
+      readMessage(bag.connections().at(entry.connection), bytes, message);
     } catch (const std::exception& error) {
       reason = error.what();
     }
     if (reason.empty()) {
-      visitor.cloud(message, index, count);
+      visitor.cloud(message, index, messages.size());
     } else {
-      visitor.malformed(reason, index, count);
+      visitor.malformed(reason, index, messages.size());
     }
-    ++index;
   }
 }
 
 }  // namespace
 
+bool isBag(const std::string& path)
+{
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {  // the first bytes of a pipe could be read once only
+    return false;
+  }
+  std::string begin(std::strlen(kBagMagic), '\0');
+  std::ifstream file(path, std::ios::binary);
+  return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kBagMagic;
+}
+
 void readBagClouds(const std::string& path, const std::string& topic, const BagVisitor& visitor)
 {
-  const auto status = std::filesystem::status(path);
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw CloudError(std::filesystem::is_directory(status) ? "is a folder" : "is no regular file");
   }
-  checkBag(path);
   try {
-    rosbag::Bag bag;  // opened by open(): if the constructor threw, it would leak what it has read
-    bag.open(path, rosbag::bagmode::Read);
-    rosbag::View view(bag, rosbag::TopicQuery(chooseTopic(bag, topic)));
-    visitMessages(view, visitor);
-  } catch (const rosbag::BagException& error) {
-    throw CloudError(std::string("cannot be read as a bag: ") + error.what());
+    BagFile bag(path, kType);
+    visitMessages(bag, messagesOf(bag, chooseTopic(bag, topic)), visitor);
   } catch (const std::bad_alloc&) {
     throw CloudError("the bag asks for more memory than there is");
   }

@@ -1,6 +1,7 @@
 #include "io/pcd.h"
 
 #include "io/pcd_header.h"
+#include "io/printable.h"
 
 #include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -69,12 +71,20 @@ void read(std::istream& file, void* data, std::uint64_t size)
   }
 }
 
-/// PCL reads words that are no numbers, and lines that lack some, as zeros.
-void checkAsciiPoints(const PcdHeader& header, std::istream& body)
+bool isBlank(const std::string& line)
 {
+  return line.find_first_not_of(" \t\r") == std::string::npos;
+}
+
+/// PCL reads words that are no numbers, and lines that lack some, as zeros.
+/// @return whether lines of nothing but white space are among the points
+bool checkAsciiPoints(const PcdHeader& header, std::istream& body)
+{
+  bool has_blanks = false;
   std::uint64_t points = 0;
   for (std::string line; points < header.points() && std::getline(body, line);) {
-    if (line.empty()) {
+    if (isBlank(line)) {
+      has_blanks = has_blanks || !line.empty();
       continue;
     }
     ++points;
@@ -86,7 +96,8 @@ void checkAsciiPoints(const PcdHeader& header, std::istream& body)
       const bool hexadecimal =
           std::find_if(text, static_cast<const char*>(end), [](char c) { return c == 'x' || c == 'X'; }) != end;
       if (end == text || std::strchr(" \t\r", *end) == nullptr || hexadecimal) {
-        throw CloudError("point " + std::to_string(points) + " of the PCD file holds something that is no number");
+        throw CloudError("point " + std::to_string(points) + " of the PCD file holds " +
+                         quoted(std::string(text, std::strcspn(text, " \t\r"))) + ", which is no number");
       }
       text = end;
     }
@@ -99,16 +110,36 @@ void checkAsciiPoints(const PcdHeader& header, std::istream& body)
     throw CloudError("the PCD file ends after " + std::to_string(points) + " of " + std::to_string(header.points()) +
                      " points");
   }
+  return has_blanks;
+}
+
+/// The lines of the points without those between them that hold white space only: PCL skips empty ones, but not these.
+std::stringstream linesOfPoints(const PcdHeader& header, std::istream& body)
+{
+  std::stringstream lines;
+  std::uint64_t points = 0;
+  for (std::string line; points < header.points() && std::getline(body, line);) {
+    if (!isBlank(line)) {
+      lines << line << "\n";
+      ++points;
+    }
+  }
+  return lines;
 }
 
 pcl::PCLPointCloud2 readAscii(const PcdHeader& header, std::istream& file, std::uint64_t body_size)
 {
   checkPromise(header, (body_size + 1) / (2 * header.values_per_point), body_size);  // a digit and a separator each
-  checkAsciiPoints(header, file);
+  const bool has_blanks = checkAsciiPoints(header, file);
   file.clear();
   file.seekg(static_cast<std::streamoff>(header.size));
+  std::stringstream lines;
+  if (has_blanks) {
+    lines = linesOfPoints(header, file);
+  }
+  std::istream& body = has_blanks ? lines : file;
   pcl::PCLPointCloud2 cloud = makeCloud(header);
-  if (pcl::PCDReader().readBodyASCII(file, cloud, pcl::PCDReader::PCD_V7) != 0) {
+  if (pcl::PCDReader().readBodyASCII(body, cloud, pcl::PCDReader::PCD_V7) != 0) {
     throw CloudError("PCL cannot read the points of the PCD file");
   }
   return cloud;
@@ -205,7 +236,12 @@ pcl::PCLPointCloud2 readPcd(const std::string& path, SensorPose* viewpoint)
   const PcdHeader header = readPcdHeader(file);
   file.clear();
   file.seekg(static_cast<std::streamoff>(header.size));
-  pcl::PCLPointCloud2 cloud = readPoints(header, file, file_size - header.size);
+  pcl::PCLPointCloud2 cloud;
+  try {
+    cloud = readPoints(header, file, file_size - header.size);
+  } catch (const CloudError& error) {
+    throw CloudError(error.what() + header.unknown_keys);
+  }
   const auto is_padding = [](const pcl::PCLPointField& field) { return field.name == kPcdPadding; };
   cloud.fields.erase(std::remove_if(cloud.fields.begin(), cloud.fields.end(), is_padding), cloud.fields.end());
   if (viewpoint != nullptr) {

@@ -24,7 +24,7 @@ struct SensorPose
 };
 
 /// Reads a PCD file with any fields: ascii, binary or binary_compressed. The header is compared with the file's size
-/// before memory is allocated.
+/// before memory is allocated. Header lines of an unknown key are skipped, and blank lines between the points.
 /// @param viewpoint if given, receives the header's VIEWPOINT (tx ty tz qw qx qy qz). Its meaning differs between
 /// files. In some the points are in the sensor's frame, and VIEWPOINT is the pose of that frame in the scene. In others
 /// the points are in the scene's frame already, and only the position counts: that of the sensor.

@@ -1,6 +1,8 @@
 #include "io/pcd_header.h"
 
 #include "grasp_affordances/point_cloud2.h"
+#include "io/content_kind.h"
+#include "io/printable.h"
 
 #include <pcl/common/io.h>
 
@@ -22,6 +24,7 @@ namespace
 {
 
 constexpr std::int64_t kMaxHeaderSize = 65536;  // bytes; PCL writes a few hundred
+constexpr std::size_t kMostUnknown = 3;         // keys that an error names
 
 using Words = std::vector<std::string>;
 
@@ -42,7 +45,7 @@ std::int64_t parseInteger(const std::string& key, const std::string& word, std::
   const char* end = word.data() + word.size();
   const auto result = std::from_chars(word.data(), end, value);
   if (result.ec != std::errc() || result.ptr != end || value < min || value > kMax) {
-    throw CloudError("PCD header: " + key + " '" + word + "' is no integer from " + std::to_string(min) + " to " +
+    throw CloudError("PCD header: " + key + " " + quoted(word) + " is no integer from " + std::to_string(min) + " to " +
                      std::to_string(kMax));
   }
   return value;
@@ -57,14 +60,23 @@ public:
     std::string text(kMaxHeaderSize, '\0');
     file.read(&text[0], static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(file.gcount()));
+    if (text.rfind(kBagMagic, 0) == 0) {
+      throw CloudError(noPcdFile(text));
+    }
     std::size_t begin = 0;
     while (words_.count("DATA") == 0) {
       const std::size_t end = text.find('\n', begin);
+      if (end == std::string::npos && !words_.empty()) {
+        throw CloudError("the PCD header ends without a DATA line" + unknownKeys());
+      }
       if (end == std::string::npos) {
-        throw CloudError(words_.empty() ? "no PCD file" : "the PCD header ends without a DATA line");
+        throw CloudError(noPcdFile(text));
       }
       add(split(text.substr(begin, end - begin)));
       begin = end + 1;
+    }
+    if (words_.size() == 1) {  // a line of another text begins with DATA
+      throw CloudError(noPcdFile(text));
     }
     size = begin;
   }
@@ -89,7 +101,23 @@ public:
     return static_cast<std::uint64_t>(parseInteger(key, values.front()));
   }
 
+  /// What an error adds: a misspelled key may be the reason. Empty where all keys are known.
+  std::string unknownKeys() const
+  {
+    std::string keys;
+    for (const std::string& key : unknown_) {
+      keys += (keys.empty() ? "" : ", ") + quoted(key);
+    }
+    return keys.empty() ? "" : "; unknown keys in the header: " + keys;
+  }
+
 private:
+  static std::string noPcdFile(const std::string& begin)
+  {
+    const std::string kind = contentKind(begin);
+    return kind == contentKind(kBagMagic) ? "no PCD file, but " + kind : "no PCD file and no bag, but " + kind;
+  }
+
   void add(Words words)
   {
     if (words.empty() || words.front().front() == '#') {
@@ -99,17 +127,19 @@ private:
     static const Words kKeys{"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                              "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
     if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-      throw CloudError(words_.empty() ? "no PCD file" : "PCD header: a line follows " + last_ + " that has no PCD key");
+      if (unknown_.size() < kMostUnknown) {
+        unknown_.push_back(key);
+      }
+      return;
     }
-    last_ = key;
     words.erase(words.begin());
     if (!words_.emplace(key, std::move(words)).second) {
-      throw CloudError("PCD header: two lines " + key);
+      throw CloudError("PCD header: two lines " + key + unknownKeys());
     }
   }
 
   std::map<std::string, Words> words_;
-  std::string last_;
+  Words unknown_;  // the first keys of that kind
 };
 
 /// Values of SIZE, TYPE or COUNT: one per field. Files of old versions leave the line out.
@@ -146,8 +176,8 @@ void parseFields(const Entries& entries, PcdHeader& header)
     const std::int64_t size = parseInteger("SIZE", sizes[i]);
     const int datatype = size > 8 || types[i].size() != 1 ? -1 : pcl::getFieldType(static_cast<int>(size), types[i][0]);
     if (datatype < 0) {
-      throw CloudError("PCD header: field " + names[i] + " has SIZE " + sizes[i] + " and TYPE " + types[i] +
-                       ", which is not a type of PCL");
+      throw CloudError("PCD header: field " + printable(names[i]) + " has SIZE " + printable(sizes[i]) + " and TYPE " +
+                       printable(types[i]) + ", which is not a type of PCL");
     }
     pcl::PCLPointField field;
     field.name = names[i];
@@ -158,14 +188,14 @@ void parseFields(const Entries& entries, PcdHeader& header)
     header.values_per_point += static_cast<std::uint64_t>(count);
     offset += size * count;
     if (offset < 1) {
-      throw CloudError("PCD header: COUNT " + counts[i] + " steps back over the start of the point");
+      throw CloudError("PCD header: COUNT " + printable(counts[i]) + " steps back over the start of the point");
     }
   }
   header.point_step = static_cast<std::uint64_t>(offset);
   for (const auto& field : header.fields) {
     const std::uint64_t size = std::uint64_t(pcl::getFieldSize(field.datatype)) * field.count;
     if (field.name != kPcdPadding && field.offset + size > header.point_step) {
-      throw CloudError("PCD header: field " + field.name + " lies outside the point's " +
+      throw CloudError("PCD header: field " + printable(field.name) + " lies outside the point's " +
                        std::to_string(header.point_step) + " bytes");
     }
   }
@@ -182,18 +212,25 @@ void parseExtent(const Entries& entries, PcdHeader& header)
   }
 }
 
+double parseDouble(const std::string& word)
+{
+  std::istringstream stream(word);
+  stream.imbue(std::locale::classic());
+  double value = 0.0;
+  if (!(stream >> value) || !stream.eof()) {
+    throw CloudError("PCD header: VIEWPOINT needs finite numbers, " + quoted(word) + " is none");
+  }
+  return value;
+}
+
 SensorPose parseViewpoint(const Words& words)
 {
   std::array<double, 7> values{};
-  bool valid = words.size() == values.size();
-  for (std::size_t i = 0; valid && i < values.size(); ++i) {
-    std::istringstream stream(words[i]);
-    stream.imbue(std::locale::classic());
-    valid = (stream >> values[i]) && stream.eof();
+  if (words.size() != values.size()) {
+    throw CloudError("PCD header: VIEWPOINT needs seven numbers (tx ty tz qw qx qy qz), it has " +
+                     std::to_string(words.size()));
   }
-  if (!valid) {
-    throw CloudError("PCD header: VIEWPOINT needs seven finite numbers (tx ty tz qw qx qy qz)");
-  }
+  std::transform(words.begin(), words.end(), values.begin(), parseDouble);
   return {{values[0], values[1], values[2]}, Eigen::Quaterniond(values[3], values[4], values[5], values[6])};
 }
 
@@ -203,7 +240,8 @@ PcdEncoding parseEncoding(const Words& words)
       {"ascii", PcdEncoding::ascii}, {"binary", PcdEncoding::binary}, {"binary_compressed", PcdEncoding::compressed}};
   const auto encoding = words.size() == 1 ? kEncodings.find(words.front()) : kEncodings.end();
   if (encoding == kEncodings.end()) {
-    throw CloudError("PCD header: DATA is not one of ascii, binary, binary_compressed");
+    const std::string data = words.empty() ? "" : " " + quoted(words.front());
+    throw CloudError("PCD header: DATA" + data + " is not one of ascii, binary, binary_compressed");
   }
   return encoding->second;
 }
@@ -214,11 +252,16 @@ PcdHeader readPcdHeader(std::istream& file)
 {
   PcdHeader header;
   const Entries entries(file, header.size);
-  header.encoding = parseEncoding(entries.words("DATA"));
-  parseFields(entries, header);
-  parseExtent(entries, header);
-  if (entries.has("VIEWPOINT")) {
-    header.viewpoint = parseViewpoint(entries.words("VIEWPOINT"));
+  header.unknown_keys = entries.unknownKeys();
+  try {
+    header.encoding = parseEncoding(entries.words("DATA"));
+    parseFields(entries, header);
+    parseExtent(entries, header);
+    if (entries.has("VIEWPOINT")) {
+      header.viewpoint = parseViewpoint(entries.words("VIEWPOINT"));
+    }
+  } catch (const CloudError& error) {
+    throw CloudError(error.what() + header.unknown_keys);
   }
   return header;
 }

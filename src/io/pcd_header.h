@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <istream>
+#include <string>
 #include <vector>
 
 namespace grasp_affordances
@@ -32,12 +33,13 @@ struct PcdHeader
   std::uint64_t height = 0;
   SensorPose viewpoint;
   PcdEncoding encoding = PcdEncoding::ascii;
-  std::size_t size = 0;  ///< bytes of the header itself
+  std::size_t size = 0;      ///< bytes of the header itself
+  std::string unknown_keys;  ///< what an error adds on lines that were skipped; empty where there are none
 
   std::uint64_t points() const { return width * height; }
 };
 
-/// Reads and checks a header from the file's first byte on.
+/// Reads and checks a header from the file's first byte on. Lines with an unknown key are skipped.
 /// @throw CloudError for a file that is no PCD file, or whose header contradicts itself
 PcdHeader readPcdHeader(std::istream& file);
 

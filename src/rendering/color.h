@@ -1,5 +1,7 @@
 #pragma once
 
+#include "grasp_affordances/point_cloud2.h"
+
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -25,9 +27,10 @@ std::vector<Color> pointColors(const PointCloud2& message)
     if (!is_color || std::uint64_t{field.offset} + 4 > message.point_step) {
       continue;
     }
+    const std::uint64_t step = rowStep(message, message.data.size());
     colors.reserve(std::size_t{message.width} * message.height);
     for (std::size_t row = 0; row < message.height; ++row) {
-      const std::uint8_t* point = message.data.data() + row * message.row_step + field.offset;
+      const std::uint8_t* point = message.data.data() + row * step + field.offset;
       for (std::size_t column = 0; column < message.width; ++column, point += message.point_step) {
         std::uint32_t rgb = 0;
         std::memcpy(&rgb, point, sizeof(rgb));

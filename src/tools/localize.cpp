@@ -52,8 +52,7 @@ public:
     }
     for (const std::string& file : options_.inputs) {
       ++input_;
-      const bool is_bag = std::filesystem::path(file).extension() == ".bag";
-      attempt(file, [&] { is_bag ? processBag(file) : processPcd(file); });
+      attempt(file, [&] { isBag(file) ? processBag(file) : processPcd(file); });
     }
     return status_;
   }

@@ -141,7 +141,7 @@ std::optional<LocalizeOptions> parseLocalizeOptions(int argc, const char* const*
   std::string preset, config_file;
   std::vector<std::string> views;
   bool version = false;
-  app.add_option("clouds", options.inputs, "PCD files; files named *.bag are read as bags")
+  app.add_option("clouds", options.inputs, "PCD files and bags; their first bytes say which")
       ->type_name("CLOUD.pcd|BAG.bag");
   app.add_option("--view", views,
                  "one of several clouds of one scene, localized in together: with the pose of its frame in the common "

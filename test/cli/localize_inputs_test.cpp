@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grasp_affordances
@@ -93,6 +94,64 @@ TEST_F(LocalizeBagTest, choosesTheTopic)
   const Call absent = localize("--json --samples 10 --topic /up clouds.bag");
   EXPECT_EQ(absent.status, 1);
   EXPECT_NE(absent.err.find("no topic /up"), std::string::npos) << absent.err;
+}
+
+TEST_F(LocalizeBagTest, readsTopicsThatAreNoNamesOfRos)
+{
+  writeBag("clouds.bag", {"/my points", "/points"});
+  EXPECT_EQ(localize("--json --samples 10 --topic /points clouds.bag").json().size(), 2U);
+  EXPECT_EQ(localize("--json --samples 10 --topic '/my points' clouds.bag").json().size(), 2U);
+  const Call ambiguous = localize("--json --samples 10 clouds.bag");
+  EXPECT_EQ(ambiguous.status, 1);
+  EXPECT_NE(ambiguous.err.find("choose one: '/my points', /points"), std::string::npos) << ambiguous.err;
+}
+
+TEST_F(LocalizeBagTest, decidesByTheFirstBytes)
+{
+  for (const char* name : {"CLOUDS.BAG", "clouds.bag.active", "clouds"}) {
+    writeBag(name, {"/points"});
+    EXPECT_EQ(localize(std::string("--json --samples 10 ") + name).json().size(), 2U) << name;
+  }
+  write("table.bag", table());
+  const Call call = localize("--json --samples 10 table.bag");
+  EXPECT_EQ(call.status, 0) << call.err;
+  EXPECT_EQ(call.json().size(), 1U);
+}
+
+TEST_F(LocalizeBagTest, saysThatABagWasNotClosed)
+{
+  writeBag("clouds.bag", {"/points"});
+  std::string text = content("clouds.bag");
+  const std::size_t index = text.find("index_pos=");
+  ASSERT_NE(index, std::string::npos);
+  text.replace(index + 10, 8, std::string(8, '\0'));
+  const Call call = localize("--json " + writeText("clouds.bag.active", text));
+  EXPECT_EQ(call.status, 1);
+  EXPECT_EQ(call.err,
+            "clouds.bag.active: the bag was not closed, so that it has no index (rosbag reindex makes one)\n");
+}
+
+TEST_F(LocalizeTest, saysWhatAFileIs)
+{
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {".", "is a folder"},
+      {"missing.bag", "No such file or directory"},
+      {writeText("empty.pcd", ""), "is empty"},
+      {writeText("empty.bag", ""), "is empty"},
+      {writeText("text.bag", "hello\n"), "no PCD file and no bag, but text"},
+      {writeText("cloud.ply", "ply\nformat ascii 1.0\nend_header\n"), "no PCD file and no bag, but a PLY file"},
+      {writeText("pointer.pcd", "version https://git-lfs.github.com/spec/v1\n"),
+       "no PCD file and no bag, but a pointer of Git LFS (git lfs pull gets the file)"},
+  };
+  for (const auto& [file, words] : cases) {
+    const Call call = localize("--json " + file);
+    EXPECT_EQ(call.status, 1);
+    EXPECT_EQ(call.err, file + ": " + words + "\n");
+  }
+  const Call view = localize("--json --view " + writeText("a.bag", "#ROSBAG V2.0\n") + " --view cloud.ply");
+  EXPECT_EQ(view.status, 1);
+  ASSERT_EQ(lines(view.err).size(), 2U) << view.err;
+  EXPECT_EQ(lines(view.err)[0], "a.bag: no PCD file, but a bag");
 }
 
 TEST_F(LocalizeTest, readsTheRecordedBag)

@@ -1,6 +1,4 @@
 #include "io/bag.h"
-
-#include <rosbag/bag.h>
 #include "fuzz/check_cloud.h"
 #include "fuzz/memory_file.h"
 
@@ -9,7 +7,6 @@ namespace grasp_affordances::fuzz
 
 void fuzzBag(const std::uint8_t* data, std::size_t size)
 {
-  static const rosbag::Bag bag;  // librosbag loads a library with the first one, and unloads it with the last
   const MemoryFile file(data, size);
   BagVisitor visitor;
   visitor.cloud = [](const sensor_msgs::PointCloud2& message, std::size_t index, std::size_t count) {

@@ -126,6 +126,7 @@ class Outputs(unittest.TestCase):
         del no_x.fields[0]
         int_x.fields[0].datatype = PointField.INT32
         row_step.row_step -= 1
+        row_step.data += b'\0'  # with exactly the points' bytes the step would not matter
         data.data = data.data[:-1]
 
         self.listen()

@@ -50,11 +50,12 @@ void check(const PointCloud2Layout& layout)
     throw CloudError("the cloud's data is big-endian, which is not supported");
   }
   const std::uint64_t row = std::uint64_t{layout.width} * layout.point_step;
-  if (layout.row_step < row) {
+  const std::uint64_t step = rowStep(layout, layout.data_size);
+  if (step < row) {
     throw CloudError("row_step of " + bytes(layout.row_step) + " is less than width " + std::to_string(layout.width) +
                      " times point_step " + std::to_string(layout.point_step));
   }
-  const std::uint64_t size = std::uint64_t{layout.height} * layout.row_step;
+  const std::uint64_t size = layout.height * step;
   if (layout.data_size != size) {
     throw CloudError("data holds " + bytes(layout.data_size) + ", not height " + std::to_string(layout.height) +
                      " times row_step " + std::to_string(layout.row_step));
@@ -107,8 +108,9 @@ void cloudFromLayout(const PointCloud2Layout& layout, Cloud& cloud)
   cloud.y.resize(points);
   cloud.z.resize(points);
   const bool consecutive = areConsecutiveFloats(layout);
+  const std::uint64_t step = rowStep(layout, layout.data_size);
   for (std::size_t row = 0; row < layout.height; ++row) {
-    const std::uint8_t* data = layout.data + row * layout.row_step;
+    const std::uint8_t* data = layout.data + row * step;
     float *const x = &cloud.x[row * layout.width], *const y = &cloud.y[row * layout.width],
                  *const z = &cloud.z[row * layout.width];
     if (consecutive) {

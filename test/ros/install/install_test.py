@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Another package finds the core library, in the devel space and in an installed copy, and the copy runs its launch files."""
+"""Another package finds the core library, in the devel space and in an installed copy; both have the tools on the PATH, and
+the copy runs its launch files."""
 
 import argparse
 import os
@@ -7,6 +8,7 @@ import signal
 import socket
 import subprocess
 import tempfile
+import xml.etree.ElementTree
 
 # What the core library uses inside must not be needed by those who use the core library.
 PRIVATE_PACKAGES = ('PCL', 'TBB', 'yaml-cpp')
@@ -45,8 +47,8 @@ def free_port():
         return probe.getsockname()[1]
 
 
-class InstalledShell:
-    """A shell that has sourced the setup.bash of the installed copy and knows nothing of the build."""
+class SourcedShell:
+    """A shell that has sourced the setup.bash of an installed copy, or of a devel space, and knows nothing else."""
 
     def __init__(self, prefix, home):
         self.setup = os.path.join(prefix, 'setup.bash')
@@ -65,8 +67,36 @@ class InstalledShell:
         return subprocess.Popen(self.command(text), env=self.environment, start_new_session=True)
 
 
+def check_path(prefix, scratch):
+    """The lines of the documents run as they are printed, however often setup.bash is sourced."""
+    shell = SourcedShell(prefix, scratch)
+    tools = os.path.join(prefix, 'lib', 'grasp_affordances')
+    names = ('localize', 'simulate', 'evaluate')
+    found = shell.answer('bash -c "command -v %s"' % ' '.join(names)).split()
+    assert found == [os.path.join(tools, name) for name in names], found
+    assert shell.answer('rosrun grasp_affordances localize --version').startswith('localize ')
+    version = shell.answer('localize --version')
+    assert version.startswith('localize '), version
+    path = shell.answer('bash -c "source %s && echo \\$PATH"' % shell.setup).strip().split(':')
+    assert path.count(tools) == 1, path
+    assert '/usr/bin' in path and '/bin' in path, path
+
+
+def check_launch_files(prefix):
+    """Whatever node of ours an installed launch file starts is installed. Names that arguments make up are left out."""
+    folder = os.path.join(prefix, 'share', 'grasp_affordances', 'launch')
+    types = set()
+    for file in os.listdir(folder):
+        for node in xml.etree.ElementTree.parse(os.path.join(folder, file)).iter('node'):
+            if node.get('pkg') == 'grasp_affordances' and '$' not in node.get('type'):
+                types.add(node.get('type'))
+    assert 'pcd_publisher' in types, types
+    for name in types:
+        assert os.access(os.path.join(prefix, 'lib', 'grasp_affordances', name), os.X_OK), name
+
+
 def check_launch(prefix, scratch):
-    shell = InstalledShell(prefix, scratch)
+    shell = SourcedShell(prefix, scratch)
     share = os.path.join(prefix, 'share', 'grasp_affordances')
     assert shell.answer('rospack find grasp_affordances').strip() == share
     plugins = shell.answer('rospack plugins --attrib=plugin nodelet')
@@ -108,6 +138,9 @@ def main():
         build_consumer(arguments.cmake, arguments.devel, os.path.join(scratch, 'devel_consumer'))
         build_consumer(arguments.cmake, prefix, os.path.join(scratch, 'installed_consumer'))
         check_libraries(prefix)
+        check_path(prefix, scratch)
+        check_path(arguments.devel, scratch)
+        check_launch_files(prefix)
         check_launch(prefix, scratch)
 
 

@@ -61,7 +61,7 @@ std::size_t behind(const std::string& bag, const std::string& key, const std::st
 const std::string kHuge = "\xff\xff\xff\x7f";
 const std::string kIndexData = "op=\x04";
 
-/// What librosbag would take on trust: each of these would have it read beyond a buffer, or use what is not there.
+/// What librosbag takes on trust: each of these would have it read beyond a buffer, or use what is not there.
 TEST_F(BagTest, refusesNumbersThatLie)
 {
   const std::string good = content(writeBag(false));
@@ -81,7 +81,7 @@ TEST_F(BagTest, refusesNumbersThatLie)
   lie(behind(good, "count=", "ver="), kHuge, "is not as long as it claims");
 }
 
-/// An index whose connection is not declared, and a time of which nothing is left: a null pointer for librosbag.
+/// An index whose connection is not declared.
 TEST_F(BagTest, refusesAnIndexOfNoConnection)
 {
   const std::string good = content(writeBag(false));

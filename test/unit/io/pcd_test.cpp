@@ -106,6 +106,74 @@ TEST_F(PcdTest, readsEveryEncoding)
   expectTwoPoints(readPcdCloud(write(header.text() + block(kTwoPointsByField))));
 }
 
+/// As editors and other tools leave them. PCL's own reader skips empty lines only.
+TEST_F(PcdTest, skipsBlankLinesBetweenPoints)
+{
+  Header header;
+  header.data = "DATA ascii\n";
+  for (const char* blank : {" ", "\t", "\r", " \t \r"}) {
+    const std::string line = std::string(blank) + "\n";
+    expectTwoPoints(readPcdCloud(write(header.text() + line + "1 2 3\n" + line + line + "4 5 6\n" + line)));
+    expectTwoPoints(readPcdCloud(write(header.text() + "\n1 2 3\r\n" + line + "\n 4 5 6" + blank)));
+  }
+  expectRefused(write(header.text() + "1.0000 2 3\n \n"), "after 1 of 2 points");
+}
+
+TEST_F(PcdTest, skipsUnknownLinesOfTheHeader)
+{
+  Header header;
+  header.viewpoint += "TIMESTAMP 12 34\nnonsense\n";
+  expectTwoPoints(readPcdCloud(write(header.text() + kTwoPoints)));
+  expectTwoPoints(readPcdCloud(write("\xEF\xBB\xBF" + Header().text() + kTwoPoints)));  // a byte order mark
+  expectTwoPoints(readPcdCloud(write("CREATOR me\n" + header.text() + kTwoPoints)));
+}
+
+TEST_F(PcdTest, namesUnknownLinesOfTheHeaderWhereTheFileIsMalformed)
+{
+  Header header;
+  header.fields = "FEILDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
+  expectRefused(write(header.text() + kTwoPoints), "no FIELDS line; unknown keys in the header: 'FEILDS'");
+  header.fields = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCUONT 1 1 1\nA\nB\nC\nD\n";
+  header.points = "POINTS 3\n";
+  expectRefused(write(header.text() + kTwoPoints), "is not POINTS 3; unknown keys in the header: 'CUONT', 'A', 'B'");
+  header = Header();
+  header.fields = "FIELDS x y z i\nSIZE 4 4 4 4\nTYPE F F F F\nCUONT 1 1 1 2\n";
+  header.data = "DATA ascii\n";
+  expectRefused(write(header.text() + "1 2 3 4 5\n6 7 8 9 0\n"),
+                "5 values, not 4; unknown keys in the header: 'CUONT'");
+  header = Header();
+  header.data = "DAAT ascii\n";
+  expectRefused(write(header.text() + "\n"), "without a DATA line; unknown keys in the header: 'DAAT'");
+}
+
+TEST_F(PcdTest, quotesWhatIsNoNumber)
+{
+  Header header;
+  header.data = "DATA ascii\n";
+  expectRefused(write(header.text() + "1 2 3\n4 5,5 6\n"), "point 2 of the PCD file holds '5,5', which is no number");
+  expectRefused(write(header.text() + "1 2 3\n4 5 6\x1b[31m\n"), "holds '6\\x1b[31m', which is no number");
+  expectRefused(write(header.text() + "1 2 3\n4 5 " + std::string(5000, 'x') + "\n"), "xxx...', which is no number");
+  header.viewpoint = "VIEWPOINT 0 0 0 one 0 0 0\n";
+  expectRefused(write(header.text() + "1 2 3\n4 5 6\n"), "VIEWPOINT needs finite numbers, 'one' is none");
+  header = Header();
+  header.points = "POINTS " + std::string(5000, '9') + "\n";
+  expectRefused(write(header.text() + kTwoPoints), "999...' is no integer");
+}
+
+TEST_F(PcdTest, saysWhatAFileIsThatIsNone)
+{
+  expectRefused(write("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n"),
+                "no PCD file and no bag, but a PLY file");
+  expectRefused(write("hello world\nDATA is what this text is about\n"), "no PCD file and no bag, but text");
+  expectRefused(write("version https://git-lfs.github.com/spec/v1\noid sha256:0\n"), "a pointer of Git LFS");
+  expectRefused(write("#ROSBAG V2.0\nDATA\n"), "no PCD file, but a bag");
+  expectRefused(write("\x1f\x8b\x08\n"), "but compressed by gzip");
+  expectRefused(write("\x7f"
+                      "ELF\n"),
+                "but a program");
+  expectRefused(write(std::string("\0\1\2\n", 4)), "but binary data");
+}
+
 TEST_F(PcdTest, readsWhatPclWrites)
 {
   pcl::PointCloud<pcl::PointXYZRGBNormal> points(5, 4);
@@ -263,7 +331,6 @@ TEST_F(PcdTest, refusesContradictoryHeaders)
   fields("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nSIZE 4 4 4\n", "two lines SIZE");
   fields("FIELDS x y w\nSIZE 4 4 4\nTYPE F F F\n", "no field z");
   fields("FIELDS x y z\nSIZE 4 4 4\nTYPE F F I\n", "field z has datatype 5");
-  fields("FIELDS x y z\nnonsense\n", "follows FIELDS");
 
   const auto extent = [&](const char* text, const char* points, const char* reason) {
     Header header;

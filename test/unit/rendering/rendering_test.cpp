@@ -341,6 +341,13 @@ TEST_F(RenderingTest, readsPointColors)
     EXPECT_EQ(colors[0].b, 1.0F);
     EXPECT_EQ(colors[1].r, 1.0F);
   }
+  message.width = 1;
+  message.height = 2;
+  message.row_step = 0xFFFFFF00U;  // wrong, but the data is exact
+  const std::vector<Color> column = pointColors(message);
+  ASSERT_EQ(column.size(), 2U);
+  EXPECT_EQ(column[0].b, 1.0F);
+  EXPECT_EQ(column[1].r, 1.0F);
   message.fields[0].offset = 3;
   EXPECT_TRUE(pointColors(message).empty()) << "outside the point";
 }

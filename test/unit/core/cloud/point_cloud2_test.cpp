@@ -190,6 +190,35 @@ TYPED_TEST(PointCloud2Test, keepsSensorAndAllocatesNothingForTheSameSize)
   EXPECT_TRUE(cloud.intrinsics.has_value());
 }
 
+/// Drivers, and tools that crop a cloud, leave row_step as it was, at 0, or at the step of a point.
+TYPED_TEST(PointCloud2Test, toleratesAWrongRowStepWhereTheDataIsExact)
+{
+  for (const std::uint32_t height : {1U, 2U}) {
+    auto good = makeMessage<TypeParam>();
+    good.height = height;
+    good.row_step = 3 * good.point_step;
+    good.data.assign(std::size_t{height} * good.row_step, 0xEE);
+    for (std::size_t i = 0; i < std::size_t{3} * height; ++i) {
+      setPoint(good, i / 3, i % 3, 1.0F + i, 10.0F + i, 100.0F + i);
+    }
+    for (const std::uint32_t step :
+         {0U, 1U, good.point_step, 640 * good.point_step, std::numeric_limits<std::uint32_t>::max()}) {
+      SCOPED_TRACE(step);
+      auto message = good;
+      message.row_step = step;
+      Cloud cloud;
+      cloudFromPointCloud2(message, cloud);
+      ASSERT_EQ(cloud.size(), std::size_t{3} * height);
+      EXPECT_EQ(cloud.height, height);
+      for (std::size_t i = 0; i < cloud.size(); ++i) {
+        EXPECT_EQ(cloud.point(i), Eigen::Vector3f(1.0F + i, 10.0F + i, 100.0F + i)) << "point " << i;
+      }
+      message.data.push_back(0);
+      EXPECT_THROW(cloudFromPointCloud2(message, cloud), CloudError) << "the data is not exact";
+    }
+  }
+}
+
 /// A message that one change has made contradict itself.
 template <class PointCloud2>
 struct Malformed
@@ -236,6 +265,14 @@ TYPED_TEST(PointCloud2Test, refusesMalformedMessagesAndLeavesTheCloudAlone)
          m.data.clear();
        },
        "data holds"},
+      {[](M& m) {  // in 64 bit: width * height * point_step = 0
+         m.width = 1U << 31;
+         m.height = 1U << 31;
+         m.point_step = 32;
+         m.row_step = 0;
+         m.data.clear();
+       },
+       "row_step"},
   };
   for (const auto& malformed : cases) {
     auto message = makeMessage<M>();
