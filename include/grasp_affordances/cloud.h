@@ -38,8 +38,10 @@ struct Cloud
   std::uint32_t height = 0;  ///< rows; width or height is at most 1 where the cloud is not organized
   std::vector<float> x, y, z;
 
-  /// m, the sensor's place in the cloud's frame. Not used for a range image: the sensor of that is at the origin.
-  Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();
+  /// m, the sensor's place in the cloud's frame; empty where it is not known. Not used for a range image: the sensor of
+  /// that is at the origin. Where the place is not known, concave surfaces are not told from others, and normals are
+  /// NaN.
+  std::optional<Eigen::Vector3f> sensor_origin;
 
   /// Of the camera that measured an organized cloud. Where they are not given, they are estimated from the points.
   std::optional<PinholeIntrinsics> intrinsics;

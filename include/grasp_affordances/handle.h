@@ -43,7 +43,8 @@ struct GraspHandle
   std::uint32_t id = 0;                                ///< from 1: rank by score in one localization, or a tracker's id
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< on the axis, in the middle of the length
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();     ///< unit, at the centroid; its largest component is positive
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();   ///< unit, at right angles to the axis, towards the sensor's side
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();   ///< unit, at right angles to the axis, towards the sensor's
+                                                       ///< side; NaN where the sensor's place is not known
   double radius = 0.0;                                 ///< m, of the fitted surface, at the centroid
   double inner_radius = 0.0;                           ///< m, of the shell that holds the surface there
   double length = 0.0;                                 ///< m, along the axis

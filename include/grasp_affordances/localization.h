@@ -21,7 +21,8 @@ struct Shell
 {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< on the axis, in the middle of the length
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();     ///< unit; its component of largest magnitude is positive
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();   ///< unit, at right angles to the axis, towards the sensor's side
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();   ///< unit, at right angles to the axis, towards the sensor's
+                                                       ///< side; NaN where the sensor's place is not known
   double inner_radius = 0.0;                           ///< m, from the axis to the gap
   double thickness = 0.0;                              ///< m, of the gap: that of the finger
   double length = 0.0;         ///< m, measured extent along the axis; the clearance length where none is measured

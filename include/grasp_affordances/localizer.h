@@ -41,9 +41,10 @@ public:
   /// least one view with points in it sees it unoccluded; free space that one view observed is free, and blocks what
   /// another took to be hidden there.
   ///
-  /// Shells are in the common frame, and their normals point towards the sensor that saw the sample. `point_index`
-  /// counts the points of all clouds, one cloud after the other. A single cloud at the origin gives the same result as
-  /// without a pose. A cloud without a usable point, or with a pose that is not finite, is left out, with a warning.
+  /// Shells are in the common frame, and their normals point towards the sensor that saw the sample. Each cloud has a
+  /// sensor of its own, see Cloud::sensor_origin. `point_index` counts the points of all clouds, one cloud after the
+  /// other. A single cloud at the origin gives the same result as without a pose. A cloud without a usable point, or
+  /// with a pose that is not finite, is left out, with a warning.
   /// @param T_workspace_common  from the common frame to that of the box of WorkspaceConfig
   /// @param T_approach_common  from the common frame to that in which HandPosesConfig gives the direction of approach
   void localize(const std::vector<PosedCloud>& views, Localization& result,

@@ -23,11 +23,15 @@ namespace
 constexpr std::optional<Outcome> kGoesOn;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Unit vector: the part of the direction to the sensor that is at right angles to the axis.
-Eigen::Vector3d normalTowards(const Eigen::Vector3d& sensor, const Eigen::Vector3d& centroid,
+/// Unit vector: the part of the direction to the sensor that is at right angles to the axis. NaN where the sensor's
+/// place is not known.
+Eigen::Vector3d normalTowards(const std::optional<Eigen::Vector3d>& sensor, const Eigen::Vector3d& centroid,
                               const Eigen::Vector3d& axis)
 {
-  const Eigen::Vector3d direction = (sensor - centroid).normalized();
+  if (!sensor) {
+    return unknownNormal();
+  }
+  const Eigen::Vector3d direction = (*sensor - centroid).normalized();
   constexpr double kAlongAxis = 1e-6;  // the sensor looks along the axis: any normal is as good
   return normalAcross(axis, direction, kAlongAxis);
 }
@@ -220,6 +224,11 @@ void SampleBlock::fitCylinders(Remaining& samples, const PreparedViews& views, c
     sample.cylinder.axis = sample.axis;
     sample.cylinder.radius = circle->radius;
 
+    const std::optional<Eigen::Vector3d>& sensor = views[sample.point.view].sensor;
+    if (!sensor) {
+      return kGoesOn;
+    }
+
     // Concave: the points that the sensor saw lie on the far side of the axis.
     Eigen::Vector2d seen = circle->mean;
     if (sample.ownPoints() < sample.neighborhood->size()) {
@@ -227,7 +236,7 @@ void SampleBlock::fitCylinders(Remaining& samples, const PreparedViews& views, c
       seen = {offset.dot(first), offset.dot(second)};
     }
     const Eigen::Vector2d to_center = circle->center - seen;
-    const Eigen::Vector3d to_sensor = views[sample.point.view].sensor - center;
+    const Eigen::Vector3d to_sensor = *sensor - center;
     const bool far_side = to_center.dot(Eigen::Vector2d(to_sensor.dot(first), to_sensor.dot(second))) > 0.0;
     const bool refused = config.estimation.reject_concave && (sample.concave || far_side);
     return refused ? Outcome::concave : kGoesOn;

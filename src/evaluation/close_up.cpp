@@ -1,6 +1,7 @@
 #include "evaluation/close_up.h"
 
 #include "core/cloud/range_image.h"
+#include "core/result/axis_frame.h"
 #include "simulation/ground_truth.h"
 
 #include <Eigen/Geometry>
@@ -89,7 +90,8 @@ ColoredCloud crossSection(const Cloud& cloud, const std::vector<Color>& colors, 
 {
   const double radius = 2.5 * (shell.inner_radius + shell.thickness);
   Eigen::Matrix3d rotation;  // rows: the camera's x, y and z
-  rotation << shell.axis.cross(shell.normal).transpose(), -shell.normal.transpose(), shell.axis.transpose();
+  const Eigen::Vector3d normal = normalOrAny(shell.axis, shell.normal);
+  rotation << shell.axis.cross(normal).transpose(), -normal.transpose(), shell.axis.transpose();
   const Eigen::Vector3d place(0.0, 0.0, 2.0);
   std::vector<ColoredPoint> points;
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -27,7 +27,8 @@ std::vector<Color> labelColors(const std::vector<std::uint32_t>& labels, std::ui
 ColoredCloud closeUp(const Cloud& cloud, const std::vector<Color>& colors, const Eigen::Vector3d& center,
                      double radius);
 
-/// The points around a shell over its length, seen along its axis with the sensor's side above. Shell and points are
+/// The points around a shell over its length, seen along its axis with the sensor's side above, or any side where the
+/// sensor's place is not known. Shell and points are
 /// moved into the frame of a camera 2 m away.
 ColoredCloud crossSection(const Cloud& cloud, const std::vector<Color>& colors, Shell& shell);
 

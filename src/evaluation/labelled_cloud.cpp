@@ -78,6 +78,7 @@ LabelledCloud united(const LabelledCloud& labelled, std::size_t views)
     const FurtherView& view = labelled.further_views[i];
     append(view.cloud, view.T_first_this, view.labels);
   }
+  result.cloud.sensor_origin = Eigen::Vector3f::Zero();  // of the first view
   result.cloud.reset(static_cast<std::uint32_t>(points.size()), 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     result.cloud.set(i, points[i].x(), points[i].y(), points[i].z());

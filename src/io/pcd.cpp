@@ -214,6 +214,13 @@ std::optional<Eigen::Isometry3d> SensorPose::transform() const
   return Eigen::Translation3d(position) * orientation.normalized();
 }
 
+std::optional<Eigen::Vector3f> SensorPose::sensorOrigin() const
+{
+  const bool is_turned = transform() && !orientation.vec().isZero(0.0);
+  const bool is_default = position.isZero(0.0) && !is_turned;
+  return is_default ? std::nullopt : std::make_optional<Eigen::Vector3f>(position.cast<float>());
+}
+
 pcl::PCLPointCloud2 readPcd(const std::string& path, SensorPose* viewpoint)
 {
   std::error_code error;
@@ -255,7 +262,7 @@ Cloud readPcdCloud(const std::string& path)
   Cloud cloud;
   SensorPose viewpoint;
   cloudFromPointCloud2(readPcd(path, &viewpoint), cloud);
-  cloud.sensor_origin = viewpoint.position.cast<float>();
+  cloud.sensor_origin = viewpoint.sensorOrigin();
   return cloud;
 }
 

@@ -21,6 +21,10 @@ struct SensorPose
   /// The transform from the sensor's frame to the other frame. Empty if the quaternion's length differs from 1 by more
   /// than 1e-3; rounded digits are within that.
   std::optional<Eigen::Isometry3d> transform() const;
+
+  /// The position (m) as that of a sensor. Empty for a pose without a shift and without a turn: files have it where
+  /// nobody knew any.
+  std::optional<Eigen::Vector3f> sensorOrigin() const;
 };
 
 /// Reads a PCD file with any fields: ascii, binary or binary_compressed. The header is compared with the file's size
@@ -31,7 +35,7 @@ struct SensorPose
 /// @throw CloudError, without the path in its text, if the file is not a complete PCD file.
 pcl::PCLPointCloud2 readPcd(const std::string& path, SensorPose* viewpoint = nullptr);
 
-/// As readPcd, but reads only the coordinates, and the position of VIEWPOINT as the sensor's origin.
+/// As readPcd, but reads only the coordinates, and SensorPose::sensorOrigin() of VIEWPOINT.
 /// @throw CloudError as readPcd, and if the file has no fields x, y, z.
 Cloud readPcdCloud(const std::string& path);
 

@@ -1,5 +1,6 @@
 #include "rendering/picture.h"
 
+#include "core/result/axis_frame.h"
 #include "core/result/polyline.h"
 #include "rendering/canvas.h"
 #include "rendering/label_place.h"
@@ -45,8 +46,9 @@ Polyline ring(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, const 
 std::array<Polyline, 2> endRings(const Shell& shell, double radius)
 {
   const Eigen::Vector3d half = 0.5 * shell.length * shell.axis;
-  return {ring(shell.centroid - half, shell.axis, shell.normal, radius),
-          ring(shell.centroid + half, shell.axis, shell.normal, radius)};
+  const Eigen::Vector3d normal = normalOrAny(shell.axis, shell.normal);
+  return {ring(shell.centroid - half, shell.axis, normal, radius),
+          ring(shell.centroid + half, shell.axis, normal, radius)};
 }
 
 /// A circle about each point of a line, at right angles to the line at that point.

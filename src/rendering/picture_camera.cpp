@@ -31,13 +31,34 @@ Eigen::Matrix3d cameraRotation(const Eigen::Vector3d& forward)
   return rotation;
 }
 
+/// Where the camera stands: at the sensor or, where its place is not known, at the origin. From among the points it
+/// would see little of them: then it stands back and looks down at a slant, with z up.
+Eigen::Vector3d standpoint(const Cloud& cloud)
+{
+  if (cloud.sensor_origin) {
+    return cloud.sensor_origin->cast<double>();
+  }
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.measured(i)) {
+      box.extend(cloud.point(i).cast<double>());
+    }
+  }
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  if (!box.contains(origin)) {
+    return origin;
+  }
+  constexpr double kDiagonals = 1.5;  // of the box, from its middle
+  return box.center() - kDiagonals * box.diagonal().norm() * Eigen::Vector3d(1.0, 0.5, -0.7).normalized();
+}
+
 PictureCamera virtualCamera(const Cloud& cloud)
 {
   PictureCamera camera;
   camera.width = 640;
   camera.height = 480;
   camera.intrinsics = {525.0, 525.0, 319.5, 239.5};
-  const Eigen::Vector3d origin = cloud.sensor_origin.cast<double>();
+  const Eigen::Vector3d origin = standpoint(cloud);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::size_t measured = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {

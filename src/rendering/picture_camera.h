@@ -24,7 +24,8 @@ struct PictureCamera
 };
 
 /// The camera that measured the cloud, if the cloud's points reproject to their pixels. Otherwise a camera at the
-/// sensor's origin that looks at the middle of the points and sees most of them.
+/// sensor's origin that looks at the middle of the points and sees most of them. Where the sensor's place is not known,
+/// that camera is at the origin, or outside the points if the origin is among them.
 PictureCamera pictureCamera(const Cloud& cloud);
 
 }  // namespace grasp_affordances

@@ -51,12 +51,18 @@ Json viewJson(const ViewSource& view)
   return json;
 }
 
+/// null where the normal is not known.
+Json normalJson(const Eigen::Vector3d& normal)
+{
+  return normal.allFinite() ? vectorJson(normal) : Json();
+}
+
 Json shellJson(const Shell& shell)
 {
   Json json;
   json["centroid"] = vectorJson(shell.centroid);
   json["axis"] = vectorJson(shell.axis);
-  json["normal"] = vectorJson(shell.normal);
+  json["normal"] = normalJson(shell.normal);
   json["inner_radius"] = shell.inner_radius;
   json["thickness"] = shell.thickness;
   json["length"] = shell.length;
@@ -88,7 +94,7 @@ Json handleJson(const GraspHandle& handle, const HandPosesConfig& config)
   json["id"] = handle.id;
   json["centroid"] = vectorJson(handle.centroid);
   json["axis"] = vectorJson(handle.axis);
-  json["normal"] = vectorJson(handle.normal);
+  json["normal"] = normalJson(handle.normal);
   json["radius"] = handle.radius;
   json["inner_radius"] = handle.inner_radius;
   json["length"] = handle.length;

@@ -79,7 +79,7 @@ private:
   {
     SensorPose viewpoint;
     const pcl::PCLPointCloud2 points = readPcd(file, &viewpoint);
-    cloud_.sensor_origin = viewpoint.position.cast<float>();
+    cloud_.sensor_origin = options_.viewpoint ? options_.viewpoint : viewpoint.sensorOrigin();
     const std::string position = std::to_string(input_) + "/" + std::to_string(options_.inputs.size());
     process(points, {file, "", 0.0}, options_.inputs.size() > 1 ? position : "");
   }
@@ -113,7 +113,7 @@ private:
 
   void processBag(const std::string& file)
   {
-    cloud_.sensor_origin.setZero();
+    cloud_.sensor_origin = options_.viewpoint;
     BagVisitor visitor;
     visitor.cloud = [&](const sensor_msgs::PointCloud2& message, std::size_t index, std::size_t count) {
       const std::string position = std::to_string(index + 1) + "/" + std::to_string(count);

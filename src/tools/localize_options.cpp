@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <iostream>
 #include <iterator>
 #include <locale>
@@ -88,10 +89,11 @@ Config makeConfig(const std::string& preset, const std::string& file, const Para
   return configFromYaml(values.yaml(), config);
 }
 
-/// x,y,z,qx,qy,qz,qw. Empty for anything else.
-std::optional<SensorPose> parsePose(const std::string& text)
+/// Numbers with commas between them. Empty for anything else.
+template <std::size_t kCount>
+std::optional<std::array<double, kCount>> parseNumbers(const std::string& text)
 {
-  std::array<double, 7> values{};
+  std::array<double, kCount> values{};
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -99,10 +101,30 @@ std::optional<SensorPose> parsePose(const std::string& text)
       return std::nullopt;
     }
   }
-  if (stream.peek() != std::istringstream::traits_type::eof()) {
+  return stream.peek() == std::istringstream::traits_type::eof() ? std::make_optional(values) : std::nullopt;
+}
+
+/// x,y,z,qx,qy,qz,qw. Empty for anything else.
+std::optional<SensorPose> parsePose(const std::string& text)
+{
+  const auto values = parseNumbers<7>(text);
+  if (!values) {
     return std::nullopt;
   }
-  return SensorPose{{values[0], values[1], values[2]}, Eigen::Quaterniond(values[6], values[3], values[4], values[5])};
+  const auto& [x, y, z, qx, qy, qz, qw] = *values;
+  return SensorPose{{x, y, z}, Eigen::Quaterniond(qw, qx, qy, qz)};
+}
+
+/// x,y,z.
+Eigen::Vector3f parseViewpoint(const std::string& text)
+{
+  if (const auto values = parseNumbers<3>(text)) {
+    const Eigen::Vector3f place = Eigen::Vector3d(values->data()).cast<float>();
+    if (place.allFinite()) {
+      return place;
+    }
+  }
+  throw UsageError("--viewpoint " + text + ": the place is not three numbers x,y,z");
 }
 
 /// FILE.pcd:x,y,z,qx,qy,qz,qw, or a file without a pose, the name of which may hold colons.
@@ -138,7 +160,7 @@ std::optional<LocalizeOptions> parseLocalizeOptions(int argc, const char* const*
       "localize");
   app.footer("Exit status: 0 done, 1 an input was unreadable or malformed, 2 usage, bad parameter or config.");
   LocalizeOptions options;
-  std::string preset, config_file;
+  std::string preset, config_file, viewpoint;
   std::vector<std::string> views;
   bool version = false;
   app.add_option("clouds", options.inputs, "PCD files and bags; their first bytes say which")
@@ -149,6 +171,10 @@ std::optional<LocalizeOptions> parseLocalizeOptions(int argc, const char* const*
                  "in the common frame")
       ->type_name("FILE.pcd[:x,y,z,qx,qy,qz,qw]")
       ->allow_extra_args(false);
+  app.add_option("--viewpoint", viewpoint,
+                 "place of the sensor in the cloud's frame, m, in place of a file's VIEWPOINT; not used for a range "
+                 "image, whose sensor is at the origin")
+      ->type_name("X,Y,Z");
   app.add_option("--config", config_file, "YAML file of parameters, read over the preset")->type_name("FILE");
   app.add_option("--preset", preset, "localizer (default) or paper")->type_name("NAME");
   const ParameterValues values(app);
@@ -172,6 +198,12 @@ std::optional<LocalizeOptions> parseLocalizeOptions(int argc, const char* const*
     return std::nullopt;
   }
   std::transform(views.begin(), views.end(), std::back_inserter(options.views), parseView);
+  if (app.count("--viewpoint") > 0) {
+    if (!options.views.empty()) {
+      throw UsageError("--viewpoint " + viewpoint + ": each --view has a sensor of its own, at the pose in VIEWPOINT");
+    }
+    options.viewpoint = parseViewpoint(viewpoint);
+  }
   if (!options.inputs.empty() && !options.views.empty()) {
     throw UsageError("--view " + views.front() + " and " + options.inputs.front() +
                      ": clouds are given either as views or each for itself");

@@ -28,6 +28,7 @@ struct LocalizeOptions
   std::string topic;                ///< of the bags; empty: their only one
   std::string picture;              ///< path of the pictures; empty: none
   bool json = false;
+  std::optional<Eigen::Vector3f> viewpoint;  ///< m, place of the sensor in the frame of each input; empty: as files say
 };
 
 /// A command line that makes no sense. what() is one line.

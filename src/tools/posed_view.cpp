@@ -25,6 +25,9 @@ PosedView readPosedView(const std::string& file, const std::optional<Eigen::Isom
     throw CloudError("the quaternion of VIEWPOINT is not of unit length");
   }
   PosedView view{Cloud(), {}, *pose};
+  if (!T_common_cloud && viewpoint.sensorOrigin()) {
+    view.cloud.sensor_origin = Eigen::Vector3f::Zero();
+  }
   cloudFromPointCloud2(points, view.cloud);
   view.colors = pointColors(points);
   return view;

@@ -16,14 +16,15 @@ namespace grasp_affordances
 /// One of several clouds that are localized in together, as read from its file.
 struct PosedView
 {
-  Cloud cloud;                ///< in its sensor's frame
+  Cloud cloud;                ///< in a frame of its own
   std::vector<Color> colors;  ///< of the points; empty where the file has none
   Eigen::Isometry3d T_common_cloud;
 
   std::size_t measuredPoints() const;
 };
 
-/// @param T_common_cloud empty: the pose that VIEWPOINT tells
+/// @param T_common_cloud empty: the pose that VIEWPOINT tells. Where that is not the default one, it is the sensor's,
+/// and the sensor is at the origin of the cloud's frame.
 /// @throw CloudError for a file that cannot be read, and for a VIEWPOINT that is no pose.
 PosedView readPosedView(const std::string& file, const std::optional<Eigen::Isometry3d>& T_common_cloud);
 

@@ -38,6 +38,13 @@ TEST_F(LocalizeTest, refusesBadUsageAndParameters)
       {"--seed -1 table.pcd", {"sampling/seed"}},
       {"--neighborhood cube table.pcd", {"neighborhood/kind", "cube", "radius, knn"}},
       {"--estimator ransac table.pcd", {"estimation/estimator", "ransac", "taubin, pca, normals"}},
+      {"--viewpoint table.pcd", {"--viewpoint"}},
+      {"--viewpoint 1,2 table.pcd", {"--viewpoint 1,2", "x,y,z"}},
+      {"--viewpoint 1,2,3,4 table.pcd", {"--viewpoint 1,2,3,4", "x,y,z"}},
+      {"--viewpoint 1,2,up table.pcd", {"--viewpoint 1,2,up", "x,y,z"}},
+      {"--viewpoint 1,2,nan table.pcd", {"--viewpoint 1,2,nan", "x,y,z"}},
+      {"--viewpoint 1,2,1e39 table.pcd", {"--viewpoint 1,2,1e39", "x,y,z"}},
+      {"--viewpoint 1,2,3 --view table.pcd", {"--viewpoint 1,2,3", "--view"}},
       {"--preset thesis table.pcd", {"preset", "thesis", "localizer, paper"}},
       {"--config missing.yaml table.pcd", {"missing.yaml"}},
       {"--config " + writeText("unknown.yaml", "hand: {reach: 1}") + " table.pcd", {"unknown.yaml", "hand/reach"}},
@@ -128,7 +135,7 @@ TEST_F(LocalizeTest, printsHelpAndVersion)
   EXPECT_EQ(help.status, 0);
   for (const char* option :
        {"--config", "--preset", "--samples", "--capture-radius", "--finger-thickness", "--min-length", "--neighborhood",
-        "--estimator", "--threads", "--seed", "--topic", "--picture", "--json"}) {
+        "--estimator", "--threads", "--seed", "--topic", "--picture", "--json", "--viewpoint"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
   }
   const Call version = localize("--version");

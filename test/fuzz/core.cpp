@@ -24,43 +24,53 @@ bool isLength(double value)
   return std::isfinite(value) && value >= 0.0;
 }
 
-void requireAxes(const Eigen::Vector3d& axis, const Eigen::Vector3d& normal)
+/// What is surely known of each cloud.
+struct Known
+{
+  bool image;   // it is a range image
+  bool sensor;  // the place of its sensor
+};
+
+void requireAxes(const Eigen::Vector3d& axis, const Eigen::Vector3d& normal, const Known& known)
 {
   require(std::abs(axis.norm() - 1.0) < kUnit, "an axis is of unit length");
+  if (!known.sensor && normal.array().isNaN().all()) {
+    return;
+  }
   require(std::abs(normal.norm() - 1.0) < kUnit, "a normal is of unit length");
   require(std::abs(axis.dot(normal)) < kUnit, "a normal is at right angles to the axis");
 }
 
-void requireSound(const Shell& shell, const Config& config, bool has_image, std::size_t points)
+void requireSound(const Shell& shell, const Config& config, const Known& known, std::size_t points)
 {
   require(shell.centroid.allFinite(), "a shell has a place");
-  requireAxes(shell.axis, shell.normal);
+  requireAxes(shell.axis, shell.normal, known);
   require(isLength(shell.inner_radius) && shell.inner_radius <= config.hand.capture_radius + kUnit,
           "a shell fits into the hand");
   require(shell.thickness == config.hand.finger_thickness, "a shell is as thick as a finger");
   require(isLength(shell.length), "a shell has a length");
   require(std::isfinite(shell.curvature) || config.estimation.estimator != Estimator::taubin, "curvature is a number");
-  require(isShare(shell.observed_free) || !has_image, "the observed share of the gap is a share");
+  require(isShare(shell.observed_free) || !known.image, "the observed share of the gap is a share");
   require(shell.point_index < points, "a shell's sample is a point of the clouds");
 }
 
-void requireSound(const GraspHandle& handle, bool has_image, std::size_t shells)
+void requireSound(const GraspHandle& handle, const Known& known, std::size_t shells)
 {
   require(handle.centroid.allFinite(), "a handle has a place");
-  requireAxes(handle.axis, handle.normal);
+  requireAxes(handle.axis, handle.normal, known);
   require(isLength(handle.radius) && isLength(handle.inner_radius) && isLength(handle.length), "a handle has a size");
   require(handle.polyline.size() >= 2, "a handle's axis has two ends");
   for (const Eigen::Vector3d& point : handle.polyline) {
     require(point.allFinite(), "a handle's axis has places");
   }
   require(isShare(handle.score) && isShare(handle.agreement) && isShare(handle.clearance), "scores are shares");
-  require(isShare(handle.observed_free) || !has_image, "the observed share of the gaps is a share");
+  require(isShare(handle.observed_free) || !known.image, "the observed share of the gaps is a share");
   require(!handle.shells.empty() && handle.shells.back() < shells, "a handle is of shells");
   for (const GraspPose& hand : handle.hand_poses) {
     require(hand.pose.matrix().allFinite(), "a hand has a pose");
     require(std::abs(hand.pose.linear().determinant() - 1.0) < kUnit, "a hand's pose is a rotation");
     require(isLength(hand.width) && isShare(hand.score), "a hand has a width and a score");
-    require(isShare(hand.observed_free) || !has_image, "the observed share of a corridor is a share");
+    require(isShare(hand.observed_free) || !known.image, "the observed share of a corridor is a share");
   }
 }
 
@@ -75,25 +85,27 @@ void requireSound(const StageTimes& times)
 void requireSound(const Localization& result, const CoreInput& input)
 {
   std::size_t points = 0, measured = 0;
-  bool may_have_image = false;
+  bool may_have_image = false, sensors_known = true;
   for (const Cloud& cloud : input.clouds) {
     points += cloud.size();
     may_have_image = may_have_image || cloud.organized();
+    sensors_known = sensors_known && cloud.sensor_origin.has_value();
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       measured += cloud.measured(i) ? 1 : 0;
     }
   }
   const bool has_image = may_have_image && result.warnings.empty();
+  const Known known{has_image, has_image || sensors_known};
   require(result.points <= measured, "no more points are counted than are measured");
   require(std::accumulate(result.counts.begin(), result.counts.end(), 0U) == result.sampled, "counts add up");
   require(result.sampled <= static_cast<std::uint32_t>(input.config.sampling.samples),
           "no more samples than asked for");
   require(result.counts[static_cast<std::size_t>(Outcome::shell)] == result.shells.size(), "shells are counted");
   for (const Shell& shell : result.shells) {
-    requireSound(shell, input.config, has_image, points);
+    requireSound(shell, input.config, known, points);
   }
   for (const GraspHandle& handle : result.handles) {
-    requireSound(handle, has_image, result.shells.size());
+    requireSound(handle, known, result.shells.size());
   }
   require(std::isnan(result.view_disagreement) || isLength(result.view_disagreement), "views disagree by a length");
   requireSound(result.milliseconds);

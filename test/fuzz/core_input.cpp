@@ -302,6 +302,9 @@ CoreInput decodeCoreInput(ByteReader& input)
   for (unsigned i = 0; i < views; ++i) {
     decoded.poses.push_back(decodePose(input));
     decoded.clouds.push_back(decodeCloud(input, room));
+    if ((flags & 8) != 0) {
+      decoded.clouds.back().sensor_origin = Eigen::Vector3f::Zero();
+    }
     room -= decoded.clouds.back().size();
   }
   return decoded;
@@ -324,7 +327,7 @@ std::string encodeDepths(const SeedConfig& config, const std::vector<Cloud>& clo
 std::string encodeCoordinates(const SeedConfig& config, const Cloud& cloud)
 {
   ByteWriter output = encodeConfig(config);
-  output.byte(4).byte(0);
+  output.byte(4 | 8).byte(0);
   encodeHeader(output, Filling::coordinates, Intrinsics::none, 0, cloud);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     output.put(cloud.x[i]).put(cloud.y[i]).put(cloud.z[i]);

@@ -238,6 +238,14 @@ def cloud(width=8, height=6, frame='by_hand'):
     return message
 
 
+def moved_points(source, place, frame):
+    """The measured points of a cloud as one without rows in another frame; place(point) is where a point is there."""
+    points = [place(point) for point in coordinates(source) if point[2] == point[2]]
+    message = cloud(width=len(points), height=1, frame=frame)
+    message.data = b''.join(struct.pack('<fff', *point) for point in points)
+    return message
+
+
 def serialized(message):
     """Its bytes: unlike the message they are equal to others where both hold NaN."""
     buffer = io.BytesIO()

@@ -1,20 +1,21 @@
 #!/usr/bin/python3
 """What the localizer does when it is asked to: services, clouds on demand, a rate and a time that are not exceeded."""
 
+import math
 import threading
 import time
 import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import Point, Quaternion, TransformStamped, Vector3
+from geometry_msgs.msg import Point, PointStamped, Quaternion, TransformStamped, Vector3
 from sensor_msgs.msg import CameraInfo, PointCloud2
 from tf2_msgs.msg import TFMessage
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics, RegionOfInterest
 from grasp_affordances.srv import Localize, LocalizeNext
-from helpers import (ABNORMAL_ENDS, TIME_FACTOR, Listener, Process, cloud, coordinates, manager, published, publisher,
-                     scene, serialized, wait_until)
+from helpers import (ABNORMAL_ENDS, TIME_FACTOR, Listener, Process, cloud, coordinates, manager, moved_points,
+                     published, publisher, scene, serialized, wait_until)
 
 OUTCOMES = ('too_few_points', 'degenerate', 'occluded', 'low_curvature', 'concave', 'no_shell', 'too_short',
             'unobserved_gap', 'uncovered', 'out_of_time', 'shells')
@@ -32,9 +33,9 @@ class Localizer(Process):
             rospy.wait_for_service('localizer/' + name, timeout=20)
             self._calls[name] = rospy.ServiceProxy('localizer/' + name, kind)
 
-    def localize(self, cloud, region=None, camera_info=None):
+    def localize(self, cloud, region=None, camera_info=None, sensor=None):
         return self._calls['localize'](cloud=cloud, region=region or RegionOfInterest(),
-                                       camera_info=camera_info or CameraInfo())
+                                       camera_info=camera_info or CameraInfo(), sensor=sensor or PointStamped())
 
     def trigger(self, timeout=0, region=None):
         return self._calls['trigger'](region=region or RegionOfInterest(), timeout=timeout)
@@ -60,6 +61,12 @@ class Call(threading.Thread):
 def box(centre, half, frame=''):
     return RegionOfInterest(frame_id=frame, min=Point(*(x - half for x in centre)),
                             max=Point(*(x + half for x in centre)))
+
+
+def place(x, y, z, frame=''):
+    result = PointStamped(point=Point(x, y, z))
+    result.header.frame_id = frame
+    return result
 
 
 def fixed_transform(parent, child, translation):
@@ -173,6 +180,44 @@ class OnDemand(unittest.TestCase):
                 triggered = localizer.trigger(timeout=20, region=box(there, 0.05, 'shelf'))
             self.assertTrue(triggered.success, triggered.message)
             self.check_inside(triggered.shells, centre, 0.05)
+        fixed.unregister()
+
+    def test_localize_in_points_seen_from_elsewhere(self):
+        fixed = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
+        fixed.publish([fixed_transform('base', 'eye', (0, 0, -1.625))])
+        # The origin is on the other side of the table.
+        points = moved_points(self.table, lambda p: (p[0], p[1], p[2] - 1.625), 'base')
+        with Localizer() as localizer:
+            unknown = localizer.localize(points)
+            self.assertTrue(unknown.success, unknown.message)
+            self.assertEqual(unknown.statistics.concave, 0)
+            self.assertTrue(all(math.isnan(shell.normal.x) for shell in unknown.shells))
+            self.assertTrue(any('the field sensor' in warning for warning in unknown.statistics.warnings))
+            for handle in unknown.handles:
+                for pose in [handle.pose] + [hand.pose for hand in handle.hand_poses]:
+                    q = pose.orientation
+                    self.assertAlmostEqual(math.hypot(q.x, q.y, q.z, q.w), 1, delta=1e-9)
+
+            given = localizer.localize(points, sensor=place(0, 0, -1.625, 'base'))
+            self.assertTrue(given.success, given.message)
+            self.assertGreater(given.statistics.concave, 0)
+            self.assertGreater(len(given.handles), 0)
+            self.assertGreaterEqual(len(unknown.handles), len(given.handles))
+            for shell in given.shells:
+                n, c = vector(shell.normal), vector(shell.centroid)
+                self.assertGreater(-n[0] * c[0] - n[1] * c[1] + n[2] * (-1.625 - c[2]), 0)
+
+            by_tf = localizer.localize(points, sensor=place(0, 0, 0, 'eye'))
+            self.assertEqual([serialized(shell) for shell in by_tf.shells],
+                             [serialized(shell) for shell in given.shells])
+            # The place was that call's only.
+            self.assertEqual(localizer.localize(points).statistics.concave, 0)
+
+            for sensor, word in ((place(0, 0, 1), 'frame'), (place(0, math.nan, 1, 'base'), 'finite'),
+                                 (place(0, 0, 0, 'nowhere'), 'nowhere')):
+                answer = localizer.localize(points, sensor=sensor)
+                self.assertFalse(answer.success)
+                self.assertIn(word, answer.message)
         fixed.unregister()
 
     def test_trigger_answers_with_what_is_published(self):

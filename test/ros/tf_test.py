@@ -14,8 +14,8 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
-from helpers import (TIME_FACTOR, Listener, Process, coordinates, processor_time, published, rotated, serialized,
-                     wait_until)
+from helpers import (TIME_FACTOR, Listener, Process, coordinates, moved_points, processor_time, published, rotated,
+                     serialized, wait_until)
 
 CAMERA = 'camera_optical'
 OUTPUTS = {'shells': CylindricalShellArray, 'markers': MarkerArray, 'statistics': LocalizationStatistics}
@@ -137,6 +137,47 @@ class Tf(unittest.TestCase):
             for name in ('inner_radius', 'length', 'points_inside', 'points_in_gap', 'point_index'):
                 self.assertEqual(getattr(shell, name), getattr(original, name))
         self.assertGreater(turned_over, 0)
+
+    def check_poses(self, shells, markers):
+        """Shells and markers have valid poses, whatever is known of the sensor."""
+        self.assertGreater(len(shells), 50)
+        for shell in shells:
+            self.assertLess(math.dist(rotated(shell.pose.orientation, (0, 0, 1)), vector(shell.axis)), 1e-9)
+        for marker in markers:
+            q = marker.pose.orientation
+            self.assertAlmostEqual(math.hypot(q.x, q.y, q.z, q.w), 1, delta=1e-9)
+            self.assertTrue(all(map(math.isfinite, vector(marker.pose.position))))
+
+    def test_the_sensor_of_a_cloud_in_another_frame(self):
+        cloud = moved_points(self.table, lambda point: applied(T_ROOM_CAMERA, point), 'room')
+        with Localizer('unknown') as unknown, Localizer('known', '_sensor_frame:=/' + CAMERA) as known:
+            self.connect(localizers=2)
+            cloud.header.stamp = rospy.Time.now()
+            self.points.publish(cloud)
+            without, given = (localizer.answer('shells', cloud.header.stamp).shells for localizer in (unknown, known))
+            for shells, localizer in ((without, unknown), (given, known)):
+                self.check_poses(shells, localizer.markers(cloud.header.stamp))
+            told, found = (localizer.answer('statistics', cloud.header.stamp) for localizer in (unknown, known))
+            wait_until(lambda: 'the place of the sensor is not known' in unknown.output(), 'warning')
+        camera = vector(T_ROOM_CAMERA.transform.translation)
+        for shell in given:
+            to_camera = [a - b for a, b in zip(camera, vector(shell.centroid))]
+            self.assertGreater(dot(vector(shell.normal), to_camera), 0)
+        self.assertTrue(all(math.isnan(x) for shell in without for x in vector(shell.normal)))
+        self.assertGreater(found.concave, 0)
+        self.assertEqual(told.concave, 0)
+        self.assertGreater(found.handles, 0)
+        self.assertGreaterEqual(told.handles, found.handles)
+        self.assertTrue(any('~sensor_frame' in warning for warning in told.warnings), told.warnings)
+        self.assertFalse(any('sensor_frame' in warning for warning in found.warnings), found.warnings)
+
+    def test_a_cloud_without_the_transform_of_its_sensor_is_dropped(self):
+        with Localizer('localizer', '_sensor_frame:=nowhere', '_transform_timeout:=0.05') as localizer:
+            self.connect()
+            self.publish()
+            wait_until(lambda: 'cloud dropped for want of a transform' in localizer.output(), 'complaint')
+            self.assertIn('nowhere', localizer.output())
+            self.assertFalse(localizer.answered())
 
     def test_workspace_in_another_frame(self):
         # Without random draws a sample's shell depends on its point alone.

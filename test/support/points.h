@@ -46,9 +46,11 @@ private:
   std::uint64_t counter_ = 0;
 };
 
+/// Points that a sensor at the origin saw.
 inline Cloud cloudOf(const Points& points)
 {
   Cloud cloud;
+  cloud.sensor_origin = Eigen::Vector3f::Zero();
   cloud.reset(static_cast<std::uint32_t>(points.size()), 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f p = points[i].cast<float>();
@@ -57,9 +59,11 @@ inline Cloud cloudOf(const Points& points)
   return cloud;
 }
 
-/// A cloud without its rows, and without the intrinsics of the camera: no range image. Points keep their indices.
+/// A cloud without its rows, and without the intrinsics of the camera: no range image. Points keep their indices. The
+/// place of the sensor is known: that of a range image is the origin.
 inline Cloud unorganized(Cloud cloud)
 {
+  cloud.sensor_origin = cloud.sensor_origin.value_or(Eigen::Vector3f::Zero());
   cloud.width = static_cast<std::uint32_t>(cloud.size());
   cloud.height = 1;
   cloud.intrinsics.reset();
@@ -99,7 +103,7 @@ inline Points cylinderPoints(double radius, double arc, double length, std::size
   return points;
 }
 
-/// A cloud in another frame.
+/// A cloud in another frame, with the place of its sensor. Where that is not given, it is the origin.
 inline Cloud moved(const Cloud& cloud, const Eigen::Isometry3d& T)
 {
   Cloud result = cloud;
@@ -107,7 +111,8 @@ inline Cloud moved(const Cloud& cloud, const Eigen::Isometry3d& T)
     const Eigen::Vector3f p = (T * cloud.point(i).cast<double>()).cast<float>();
     result.set(i, p.x(), p.y(), p.z());
   }
-  result.sensor_origin = (T * cloud.sensor_origin.cast<double>()).cast<float>();
+  const Eigen::Vector3f sensor = cloud.sensor_origin.value_or(Eigen::Vector3f::Zero());
+  result.sensor_origin = (T * sensor.cast<double>()).cast<float>();
   return result;
 }
 

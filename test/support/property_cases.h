@@ -191,7 +191,8 @@ inline void conclude(const std::string& property, const Tally& tally)
   EXPECT_GE(tally.shells, 20 * propertySeeds());
 }
 
-/// The points of a cloud that were measured, as one that is not organized. @param from  their indices in the cloud
+/// The points of a range image that were measured, as a cloud that is not organized. @param from  their indices in the
+/// image
 inline Cloud measuredPointsOf(const Cloud& cloud, std::vector<std::uint32_t>& from)
 {
   from.clear();
@@ -201,6 +202,7 @@ inline Cloud measuredPointsOf(const Cloud& cloud, std::vector<std::uint32_t>& fr
     }
   }
   Cloud result;
+  result.sensor_origin = Eigen::Vector3f::Zero();
   result.reset(static_cast<std::uint32_t>(from.size()), 1);
   for (std::size_t i = 0; i < from.size(); ++i) {
     result.set(i, cloud.x[from[i]], cloud.y[from[i]], cloud.z[from[i]]);

@@ -87,7 +87,7 @@ std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, con
   }
   drawPoints(quadric, neighborhood, n, drawn, randomIndex(draw.random_bits, static_cast<std::uint32_t>(n)), scratch);
   const auto column = [&](Eigen::Index k) { return scratch.points.col(k).data(); };
-  const Eigen::Vector3d local_sensor = quadric.toLocal(seen.sensor);
+  const Eigen::Vector3d local_sensor = quadric.toLocal(seen.sensor.value_or(quadric.origin));
   const CurvatureCounts counts = quadricCurvatures(coefficients(quadric), local_sensor.data(), drawn,
                                                    {column(0), column(1), column(2), column(3)});
   if (counts.valid == 0) {
@@ -102,7 +102,7 @@ std::optional<NeighborhoodCurvature> medianCurvature(const Quadric& quadric, con
   NeighborhoodCurvature result;
   result.median = std::sqrt(*middle) / quadric.scale;
   result.axis = principalCurvature(quadric, scratch.points.row(median).head<3>().matrix().transpose()).axis;
-  result.concave = 2 * counts.concave > counts.valid;
+  result.concave = seen.sensor && 2 * counts.concave > counts.valid;
   return result;
 }
 

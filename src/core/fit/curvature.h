@@ -32,7 +32,8 @@ struct NeighborhoodCurvature
 {
   double median = 0.0;                              ///< 1/m, of the magnitudes
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, curvature axis at the median point
-  bool concave = false;  ///< whether at most points the centre of curvature lies on the sensor's side
+  bool concave = false;  ///< whether at most points the centre of curvature lies on the sensor's side; false where the
+                         ///< sensor's place is not known
 };
 
 /// Working memory of medianCurvature, one per thread.
@@ -44,7 +45,7 @@ struct CurvatureScratch
 /// The sensor that saw the first points of a neighborhood.
 struct SeenFrom
 {
-  Eigen::Vector3d sensor;                                        ///< m, in the cloud's frame
+  std::optional<Eigen::Vector3d> sensor;                         ///< m, in the cloud's frame; empty: not known
   std::size_t points = std::numeric_limits<std::size_t>::max();  ///< number of them; all, where there are fewer
 };
 

@@ -37,8 +37,18 @@ Eigen::Vector3d preferredApproach(const HandPosesConfig& config, const Eigen::Is
 
 double score(double observed_free, double filled, double aligned, double off_middle)
 {
-  const double sum = 1.0 - filled * filled + (1.0 + aligned) / 2 + 1.0 - off_middle;
-  return std::clamp(std::isnan(observed_free) ? sum / 3 : (sum + observed_free) / 4, 0.0, 1.0);
+  double sum = 1.0 - filled * filled, terms = 2.0;
+  if (!std::isnan(aligned)) {
+    sum += (1.0 + aligned) / 2;
+    terms += 1.0;
+  }
+  sum += 1.0;
+  sum -= off_middle;
+  if (!std::isnan(observed_free)) {
+    sum += observed_free;
+    terms += 1.0;
+  }
+  return std::clamp(sum / terms, 0.0, 1.0);
 }
 
 }  // namespace
@@ -133,11 +143,13 @@ void HandPoseSearch::findPlaces(const Config& config, const Eigen::Vector3d& pre
   places_.clear();
   const auto add = [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& axis, double off_middle) {
     constexpr double kAlong = 1e-3;
-    const Eigen::Vector3d normal = normalAcross(axis, handle.normal, kAlong * handle.normal.norm());
+    const Eigen::Vector3d side = normalOrAny(axis, handle.normal);
+    const Eigen::Vector3d normal = normalAcross(axis, side, kAlong * side.norm());
     const bool any = preferred.isZero(0.0);
     const Eigen::Vector3d first =
         any ? normal : directionAcross(axis, -preferred, kAlong * preferred.norm()).value_or(normal);
-    places_.push_back({origin, axis, first, axis.cross(first), any ? Eigen::Vector3d(-normal) : preferred, off_middle});
+    const Eigen::Vector3d against_normal = isKnown(handle.normal) ? Eigen::Vector3d(-normal) : unknownNormal();
+    places_.push_back({origin, axis, first, axis.cross(first), any ? against_normal : preferred, off_middle});
   };
   add(handle.centroid, handle.axis, 0.0);
 

@@ -41,14 +41,14 @@ namespace grasp_affordances
 /// handle's middle. Where a handle is thicker, its own surface blocks the hand.
 ///
 /// **Directions.** `count` directions of approach are evenly spaced around the axis. The hand's first direction is from
-/// the side of the handle's normal, which is the sensor's. With a preferred direction of approach the first is the one
-/// nearest to it.
+/// the side of the handle's normal, which is the sensor's. Where the normal is not known, it is any one. With a
+/// preferred direction of approach the first is the one nearest to it.
 ///
 /// **Score**: the mean of
 /// - the share of the corridor that was seen to be free; left out where it is not known,
 /// - 1 - (points in the corridor / points that would block it)^2,
 /// - (1 + cos a) / 2, where a is the angle between the approach and the preferred direction, or without one between the
-///   approach and the opposite of the normal,
+///   approach and the opposite of the normal; left out where neither is known,
 /// - 1 - distance from the middle along the axis / half the handle's length.
 ///
 /// Poses are sorted by falling score. Of poses with the same score the one nearer to the middle comes first, then the
@@ -70,7 +70,7 @@ private:
   struct Place
   {
     Eigen::Vector3d origin, axis, first, second;  // m, on the axis; the others are orthonormal
-    Eigen::Vector3d preferred;                    // direction of approach, unit
+    Eigen::Vector3d preferred;                    // direction of approach, unit; NaN where none is
     double off_middle;                            // 0 in the middle of the handle, 1 at its end
   };
 
@@ -79,7 +79,7 @@ private:
   {
     GraspPose hand;
     double cosine = 1.0, sine = 0.0;  // of the angle of the side it comes from, in the place's frame
-    double aligned = 1.0;             // cosine of the angle between approach and preferred approach
+    double aligned = 1.0;             // cosine of the angle between approach and preferred approach; NaN without one
     std::size_t rank = 0;             // among those of equal score
   };
 

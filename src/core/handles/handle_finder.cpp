@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -28,14 +29,18 @@ bool standsBefore(const Shell* a, const Shell* b)
   return key(*a) < key(*b);
 }
 
-/// Standard deviation (m) of the depth at a point, as the nearest sensor measures it.
+/// Standard deviation (m) of the depth at a point, as the nearest sensor measures it. Where no sensor's place is known,
+/// at a usual distance.
 double depthNoiseAt(const PreparedViews& views, const Eigen::Vector3d& point)
 {
+  constexpr double kUsualDistance = 1.0;  // m
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t view = 0; view < views.size(); ++view) {
-    depth = std::min(depth, (views.T_common_view(view) * views[view].sensor - point).norm());
+    if (const std::optional<Eigen::Vector3d>& sensor = views[view].sensor) {
+      depth = std::min(depth, (views.T_common_view(view) * *sensor - point).norm());
+    }
   }
-  return depthNoise(depth);
+  return depthNoise(std::isfinite(depth) ? depth : kUsualDistance);
 }
 
 /// Of at least one value. Reorders the values.
@@ -112,9 +117,13 @@ void HandleFinder::describe(const PreparedViews& views, const Config& config, Gr
 {
   radii_.clear();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  std::size_t with_normal = 0;
   for (const Shell* shell : members_) {
     radii_.push_back(shell->inner_radius);
-    normal += shell->normal;
+    if (isKnown(shell->normal)) {
+      normal += shell->normal;
+      ++with_normal;
+    }
   }
   handle.inner_radius = median(radii_);
   handle.radius = handle.inner_radius;
@@ -129,7 +138,8 @@ void HandleFinder::describe(const PreparedViews& views, const Config& config, Gr
   const PolylineMiddle middle = middleOf(handle.polyline);
   handle.centroid = middle.point;
   handle.axis = withLargestComponentPositive(middle.direction);
-  handle.normal = normalAcross(handle.axis, normal, 1e-6 * static_cast<double>(members_.size()));
+  handle.normal =
+      with_normal > 0 ? normalAcross(handle.axis, normal, 1e-6 * static_cast<double>(with_normal)) : unknownNormal();
   handle.inner_radius = std::min(std::max(handle.inner_radius, handle.radius), config.hand.capture_radius);
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <limits>
 #include <optional>
 
 namespace grasp_affordances
@@ -43,6 +44,24 @@ inline std::optional<Eigen::Vector3d> directionAcross(const Eigen::Vector3d& axi
 inline Eigen::Vector3d normalAcross(const Eigen::Vector3d& axis, const Eigen::Vector3d& vector, double least)
 {
   return directionAcross(axis, vector, least).value_or(axis.unitOrthogonal());
+}
+
+/// The normal of shells and handles whose sensor's place is not known: NaN.
+inline Eigen::Vector3d unknownNormal()
+{
+  return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
+inline bool isKnown(const Eigen::Vector3d& normal)
+{
+  return normal.allFinite();
+}
+
+/// The normal, or any direction at right angles to the axis where the normal is not known.
+/// @param axis  unit
+inline Eigen::Vector3d normalOrAny(const Eigen::Vector3d& axis, const Eigen::Vector3d& normal)
+{
+  return isKnown(normal) ? normal : Eigen::Vector3d(axis.unitOrthogonal());
 }
 
 /// The rotation of a frame with its z along an axis: its columns are x, z cross x, and z.

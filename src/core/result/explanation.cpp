@@ -17,12 +17,22 @@ std::uint32_t count(const Localization& localization, Outcome outcome)
   return localization.counts[static_cast<std::size_t>(outcome)];
 }
 
-/// Where most of the samples ended that gave no shell.
+/// Whether more than half of the samples that were not flat ended as concave, and not just a few of them.
+bool restIsConcave(const Localization& localization)
+{
+  const std::uint32_t concave = count(localization, Outcome::concave);
+  const std::uint32_t rest = localization.sampled - count(localization, Outcome::low_curvature);
+  return 2 * concave > rest && 100 * concave > localization.sampled;
+}
+
+/// Where most of the samples ended that gave no shell. Before a table most are flat, whatever stands on it. Then
+/// concavity is the reason where it refused the rest.
 Outcome dominating(const Localization& localization)
 {
   static_assert(static_cast<std::size_t>(Outcome::shell) + 1 == kOutcomes, "the shells come last");
   const auto begin = localization.counts.begin();
-  return static_cast<Outcome>(std::max_element(begin, localization.counts.end() - 1) - begin);
+  const auto most = static_cast<Outcome>(std::max_element(begin, localization.counts.end() - 1) - begin);
+  return most == Outcome::low_curvature && restIsConcave(localization) ? Outcome::concave : most;
 }
 
 std::string millimetres(double metres)
@@ -82,8 +92,8 @@ std::string meaning(Outcome outcome, const Config& config)
            << ": larger objects need a larger hand/capture_radius";
       break;
     case Outcome::concave:
-      text << "on hollow surfaces, such as the inside of a cup: move the camera to where surfaces bulge towards it, or "
-              "switch estimation/reject_concave off";
+      text << "on hollow surfaces, such as the inside of a cup: move the camera to where surfaces bulge towards it, "
+              "correct the sensor's place where it was given, or switch estimation/reject_concave off";
       break;
     case Outcome::no_shell:
       text << "where no radius up to the hand's capture radius of " << capture_radius << " has a clear gap of "

@@ -140,8 +140,12 @@ void TrackedHandle::average(const GraspHandle& found, const std::vector<const Gr
   if (!blob) {
     axis_scatter_ = handle_.axis * handle_.axis.transpose();
   }
-  const Eigen::Vector3d normal = handle_.normal + weight * (found.normal - handle_.normal);
-  handle_.normal = normalAcross(handle_.axis, normal, 1e-6);
+  if (isKnown(handle_.normal) && isKnown(found.normal)) {
+    const Eigen::Vector3d normal = handle_.normal + weight * (found.normal - handle_.normal);
+    handle_.normal = normalAcross(handle_.axis, normal, 1e-6);
+  } else {  // as approach()
+    handle_.normal = isKnown(found.normal) ? normalAcross(handle_.axis, found.normal, 1e-6) : unknownNormal();
+  }
 
   handle_.hand_poses = found.hand_poses;
   const AxisCurve curve(handle_);

@@ -17,6 +17,16 @@ SphereView unseen(const Neighborhood& neighborhood)
   return {neighborhood.center, neighborhood.radius, PixelWindow{}, survey};
 }
 
+/// What is left out without the sensor's place, and how to give it.
+std::string sensorUnknown(const Config& config)
+{
+  return std::string("the place of the sensor is not known: ") +
+         (config.estimation.reject_concave ? "concave surfaces are not rejected, " : "") +
+         "normals are left out, and hands may approach from any side; give it by ~sensor_frame (a node with one "
+         "camera), the field sensor (a call of ~localize), --viewpoint x,y,z (localize), VIEWPOINT (a PCD file) or "
+         "Cloud::sensor_origin";
+}
+
 }  // namespace
 
 std::string nothingToLocalize(NothingSampled reason)
@@ -30,7 +40,7 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
   cloud = &new_cloud;
   image.reset();
   search = nullptr;
-  sensor.setZero();
+  sensor.reset();
   warnings.clear();
   nothing_sampled.reset();
   screen.clear();
@@ -50,9 +60,12 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
   std::string warning;
   image = RangeImage::create(*cloud, warning, &team);
   if (image) {
+    sensor = Eigen::Vector3d::Zero();
     search = &window_search_.emplace(*image, measured.size());
   } else {
-    sensor = cloud->sensor_origin.cast<double>();
+    if (cloud->sensor_origin && cloud->sensor_origin->allFinite()) {
+      sensor = cloud->sensor_origin->cast<double>();
+    }
     tree_search_ = makeTreeSearch(*cloud);
     search = tree_search_.get();
     if (config.occlusion.filter || config.shell.require_observed_gap || config.sampling.screen ||
@@ -64,6 +77,9 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
   }
   if (!warning.empty()) {
     warnings.push_back(warning);
+  }
+  if (!sensor) {
+    warnings.push_back(sensorUnknown(config));
   }
   if (image && config.sampling.screen) {
     screen.update(*image, config.hand, static_cast<std::size_t>(config.sampling.samples), config.sampling.seed, team,

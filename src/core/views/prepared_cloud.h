@@ -59,14 +59,14 @@ public:
   const Cloud* cloud = nullptr;
   std::vector<std::uint32_t> measured;  // indices of the measured points
   std::optional<RangeImage> image;
-  PointScreen screen;                          // empty without an image
-  const NeighborhoodSearch* search = nullptr;  // null where there is nothing to localize
-  HiddenSurfaces hidden;                       // surfaces that go on behind others; valid with hidden_search
-  std::optional<RangeImage> hidden_image;      // of `hidden`
-  std::optional<WindowSearch> hidden_search;   // in `hidden`; none without an image, or where they are not asked for
-  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // m, in the cloud's frame
-  SurfaceNormals normals;                            // for the Normals variation only
-  std::optional<NothingSampled> nothing_sampled;     // why there is nothing to localize; empty where there is something
+  PointScreen screen;                             // empty without an image
+  const NeighborhoodSearch* search = nullptr;     // null where there is nothing to localize
+  HiddenSurfaces hidden;                          // surfaces that go on behind others; valid with hidden_search
+  std::optional<RangeImage> hidden_image;         // of `hidden`
+  std::optional<WindowSearch> hidden_search;      // in `hidden`; none without an image, or where they are not asked for
+  std::optional<Eigen::Vector3d> sensor;          // m, in the cloud's frame; empty where it is not known
+  SurfaceNormals normals;                         // for the Normals variation only
+  std::optional<NothingSampled> nothing_sampled;  // why there is nothing to localize; empty where there is something
   std::vector<std::string> warnings;
 
 private:

@@ -31,8 +31,8 @@ public:
   /// The clouds of one moment, ready to be localized in.
   struct Gathered
   {
-    std::vector<const Cloud*> clouds;  ///< in the order of the messages; valid until the next call of gather()
-    std_msgs::Header header;           ///< common frame of the clouds, and the stamp of the newest
+    std::vector<Cloud*> clouds;  ///< in the order of the messages; valid until the next call of gather()
+    std_msgs::Header header;     ///< common frame of the clouds, and the stamp of the newest
   };
 
   virtual ~CloudInput() = default;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
 
 namespace grasp_affordances
@@ -11,8 +12,20 @@ namespace grasp_affordances
 namespace
 {
 
-// s at least that a call waits for the transforms of its region, as it may be the first one to need any.
-constexpr double kRegionTimeout = 1.0;
+// s at least that a call waits for the transforms of its region or sensor, as it may be the first one to need any.
+constexpr double kCallTimeout = 1.0;
+
+Eigen::Vector3d placeOf(const geometry_msgs::PointStamped& sensor)
+{
+  const Eigen::Vector3d place(sensor.point.x, sensor.point.y, sensor.point.z);
+  if (!place.allFinite()) {
+    throw std::invalid_argument("the sensor's place is not finite");
+  }
+  if (sensor.header.frame_id.empty() && !place.isZero(0.0)) {
+    throw std::invalid_argument("the sensor's place has no frame (sensor.header.frame_id)");
+  }
+  return place;
+}
 
 }  // namespace
 
@@ -25,18 +38,26 @@ FramedLocalizer::FramedLocalizer(const NodeParameters& parameters, const Config&
 
 FramedLocalizer::Frames FramedLocalizer::lookUp(const std_msgs::Header& common,
                                                 const std::vector<std_msgs::Header>& clouds,
-                                                const RegionOfInterest& region)
+                                                const RegionOfInterest& region,
+                                                const geometry_msgs::PointStamped& sensor)
 {
+  const Eigen::Vector3d sensor_place = placeOf(sensor);
+  const bool calls_for_frames = hasRegion(region) || !sensor.header.frame_id.empty();
   const double timeout =
-      hasRegion(region) ? std::max(parameters_.transform_timeout, kRegionTimeout) : parameters_.transform_timeout;
+      calls_for_frames ? std::max(parameters_.transform_timeout, kCallTimeout) : parameters_.transform_timeout;
   const Transforms::Deadline deadline = Transforms::after(timeout);
   const auto transform = [&](const std::string& target, const std_msgs::Header& source) {
     return target.empty() ? Eigen::Isometry3d(Eigen::Isometry3d::Identity())
                           : transforms_.lookup(target, source.frame_id, source.stamp, deadline);
   };
+  const std::string& sensor_frame = sensor.header.frame_id.empty() ? parameters_.sensor_frame : sensor.header.frame_id;
   Frames result;
   for (const std_msgs::Header& cloud : clouds) {
     result.T_common_cloud.push_back(transform(common.frame_id, cloud));
+    std::optional<Eigen::Vector3f>& origin = result.sensor_origin.emplace_back();
+    if (!sensor_frame.empty()) {
+      origin = (transform(sensor_frame, cloud).inverse() * sensor_place).cast<float>();
+    }
   }
   const std::string workspace_frame = regionFrame(region, parameters_.workspace_frame);
   result.workspace_frame = workspace_frame.empty() ? common.frame_id : workspace_frame;
@@ -51,11 +72,12 @@ FramedLocalizer::Frames FramedLocalizer::lookUp(const std_msgs::Header& common,
   return result;
 }
 
-std_msgs::Header FramedLocalizer::localize(const std::vector<const Cloud*>& clouds, const std_msgs::Header& common,
+std_msgs::Header FramedLocalizer::localize(const std::vector<Cloud*>& clouds, const std_msgs::Header& common,
                                            const Frames& frames, const Config& config)
 {
   posed_clouds_.resize(clouds.size());
   for (std::size_t i = 0; i < clouds.size(); ++i) {
+    clouds[i]->sensor_origin = frames.sensor_origin[i];
     posed_clouds_[i] = {clouds[i], frames.T_common_cloud[i]};
   }
   localizer_.configure(config);

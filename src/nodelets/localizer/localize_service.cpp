@@ -75,7 +75,7 @@ void LocalizeService::answer(const Localize::Request& request, Localize::Respons
   cloudFromPointCloud2(request.cloud, cloud_);
   cloud_.intrinsics = intrinsicsOfCall(request.camera_info, cloud_);
   const std_msgs::Header& common = request.cloud.header;
-  const FramedLocalizer::Frames frames = localizer_->lookUp(common, {common}, request.region);
+  const FramedLocalizer::Frames frames = localizer_->lookUp(common, {common}, request.region, request.sensor);
   const std_msgs::Header header = localizer_->localize({&cloud_}, common, frames, config);
   const Localization& localization = localizer_->localization();
   response.shells = shellsMessage(localization, header).shells;

@@ -13,9 +13,9 @@ namespace grasp_affordances
 /// Localizes enveloping grasp affordances in the newest of the clouds that arrive.
 ///
 /// Subscribed: see SingleCloud; /tf and /tf_static where a parameter names a frame or clouds are localized in on
-/// demand, else from the first call on whose region names a frame. Published, for every processed cloud, with its stamp
-/// and in its frame or the target frame: see LocalizationPublishers. Services: see LocalizingLoop; ~localize is
-/// offered. Parameters: see NodeParameters.
+/// demand, else from the first call on whose region or sensor names a frame. Published, for every processed cloud, with
+/// its stamp and in its frame or the target frame: see LocalizationPublishers. Services: see LocalizingLoop; ~localize
+/// is offered. Parameters: see NodeParameters.
 class LocalizerNodelet : public nodelet::Nodelet
 {
 private:

@@ -20,7 +20,7 @@ namespace
 bool namesAFrame(const NodeParameters& parameters)
 {
   return !parameters.workspace_frame.empty() || !parameters.target_frame.empty() || !parameters.fixed_frame.empty() ||
-         !parameters.approach_frame.empty();
+         !parameters.approach_frame.empty() || !parameters.sensor_frame.empty();
 }
 
 std::string joined(const std::vector<std::string>& lines)

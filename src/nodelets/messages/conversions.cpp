@@ -58,7 +58,7 @@ geometry_msgs::Pose poseMessage(const Eigen::Vector3d& origin, const Eigen::Vect
                                 const Eigen::Vector3d& normal)
 {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = rotationAlong(axis, normal);
+  pose.linear() = rotationAlong(axis, normalOrAny(axis, normal));
   pose.translation() = origin;
   return poseMessage(pose);
 }

@@ -18,13 +18,15 @@
 namespace grasp_affordances
 {
 
-/// Origin in the middle of the shell's axis, z along the axis, x along the outward normal.
+/// Origin in the middle of the shell's axis, z along the axis, x along the outward normal or, where that is not known,
+/// any direction at right angles to the axis.
 geometry_msgs::Pose poseMessage(const Shell& shell);
 
 /// All shells of a localization, in their order, under the header of the cloud.
 CylindricalShellArray shellsMessage(const Localization& localization, const std_msgs::Header& header);
 
-/// z along the axis, x along the normal, both unit and at right angles.
+/// z along the axis, x along the normal, both unit and at right angles. Where the normal is not known (NaN), x is any
+/// direction at right angles to the axis.
 geometry_msgs::Pose poseMessage(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis,
                                 const Eigen::Vector3d& normal);
 geometry_msgs::Pose poseMessage(const Eigen::Isometry3d& pose);

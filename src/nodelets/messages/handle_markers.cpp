@@ -163,7 +163,7 @@ InteractiveMarker handleMarker(const GraspHandle& handle, const std_msgs::Header
                                const std::optional<GraspPose>& hand, const HandGeometry& geometry)
 {
   Eigen::Isometry3d T_header_handle = Eigen::Isometry3d::Identity();
-  T_header_handle.linear() = rotationAlong(handle.axis, handle.normal);
+  T_header_handle.linear() = rotationAlong(handle.axis, normalOrAny(handle.axis, handle.normal));
   T_header_handle.translation() = handle.centroid;
   const Eigen::Isometry3d T_handle_header = T_header_handle.inverse();
 

@@ -165,7 +165,8 @@ Marker idMarker(const std_msgs::Header& header, const GraspHandle& handle)
 {
   Marker marker =
       grasp_affordances::marker(header, "handle_ids", static_cast<std::int32_t>(handle.id), Marker::TEXT_VIEW_FACING);
-  marker.pose.position = point(handle.centroid + (handle.inner_radius + kLabelDistance) * handle.normal);
+  const Eigen::Vector3d side = normalOrAny(handle.axis, handle.normal);
+  marker.pose.position = point(handle.centroid + (handle.inner_radius + kLabelDistance) * side);
   marker.scale.z = kLabelHeight;
   marker.color = color(1.0, 1.0, 1.0, 1.0);
   marker.text = std::to_string(handle.id);

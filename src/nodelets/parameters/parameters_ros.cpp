@@ -40,6 +40,7 @@ NodeParameters nodeParameters(ParameterReader read)
 {
   NodeParameters result;
   readNodeParameters(read, result);
+  readFrame("sensor_frame", read, result.sensor_frame);
   read.refuseRemaining();
   validate(result.config);
   return result;

@@ -22,6 +22,8 @@ struct NodeParameters
   std::string target_frame;        ///< of the outputs; empty: the frame of the cloud
   std::string fixed_frame;         ///< in which handles stand still and are tracked; empty: that of the outputs
   std::string approach_frame;      ///< of the direction of approach in `config`; empty: the frame of the cloud
+  std::string sensor_frame;        ///< its origin is the place of the sensor, for clouds that are no range images;
+                                   ///< empty: not known. Only for one camera
   double transform_timeout = 0.1;  ///< s of wall-clock time that a cloud waits for its transforms
 };
 

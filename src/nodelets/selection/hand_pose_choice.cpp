@@ -1,5 +1,7 @@
 #include "nodelets/selection/hand_pose_choice.h"
 
+#include "core/result/axis_frame.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,10 +70,11 @@ std::optional<std::size_t> HandPoseChoice::step(const GraspHandle& handle, const
   if (!current) {
     return std::nullopt;
   }
-  const Eigen::Vector3d across = handle.axis.cross(handle.normal);
+  const Eigen::Vector3d normal = normalOrAny(handle.axis, handle.normal);
+  const Eigen::Vector3d across = handle.axis.cross(normal);
   const auto key = [&](std::size_t i) {
     const Place p = place(handle, i, T_hand_tool);
-    const double angle = std::atan2(p.approach.dot(across), p.approach.dot(handle.normal));
+    const double angle = std::atan2(p.approach.dot(across), p.approach.dot(normal));
     return std::make_tuple(std::round(angle / kAngleStep), p.along, i);
   };
   std::vector<std::size_t> ring(handle.hand_poses.size());

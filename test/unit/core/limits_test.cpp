@@ -67,6 +67,7 @@ TEST(Limits, TheSideOfAnImageDoesNotDecideOnMemory)
 {
   constexpr std::uint32_t kRows = 400000;
   Cloud cloud;
+  cloud.sensor_origin = Eigen::Vector3f::Zero();
   cloud.reset(2, kRows);
   cloud.intrinsics = PinholeIntrinsics{1000.0, kRows, 0.5, kRows / 2.0};
   for (std::uint32_t v = 0; v < kRows; ++v) {

@@ -340,12 +340,13 @@ TEST(Localizer, WorksOnCloudsWithoutARangeImage)
     const Eigen::Vector3f p = T * frame.cloud.point(i);
     moved.set(i, p.x(), p.y(), p.z());
   }
-  moved.sensor_origin = T.translation();
+  moved.sensor_origin = Eigen::Vector3f(T.translation());
 
   Cloud behind = frame.cloud;  // x right, y up, z backward
   for (std::size_t i = 0; i < behind.size(); ++i) {
     behind.set(i, frame.cloud.x[i], -frame.cloud.y[i], -frame.cloud.z[i]);
   }
+  behind.sensor_origin = Eigen::Vector3f::Zero();
 
   Cloud without_rows = unorganized(frame.cloud);
   for (const Cloud* cloud : {&without_rows, &moved, &behind}) {
@@ -357,7 +358,7 @@ TEST(Localizer, WorksOnCloudsWithoutARangeImage)
     std::set<std::uint32_t> found;
     for (const Shell& shell : result.shells) {
       EXPECT_TRUE(std::isnan(shell.observed_free));
-      EXPECT_GE(shell.normal.dot(cloud->sensor_origin.cast<double>() - shell.centroid), 0.0);
+      EXPECT_GE(shell.normal.dot(cloud->sensor_origin->cast<double>() - shell.centroid), 0.0);
       found.insert(judge(shell, *cloud, frame.labels).affordance);
     }
     EXPECT_EQ(found.count(3), 1U) << "the bar";

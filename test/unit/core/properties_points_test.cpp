@@ -22,6 +22,7 @@ Cloud permuted(const Cloud& cloud, Random& random, std::vector<std::uint32_t>& n
     std::swap(new_places[i], new_places[static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(i + 1)))]);
   }
   Cloud result;
+  result.sensor_origin = cloud.sensor_origin;
   result.reset(cloud.width, 1);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     result.set(new_places[i], cloud.x[i], cloud.y[i], cloud.z[i]);

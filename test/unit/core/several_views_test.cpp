@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -154,6 +155,34 @@ TEST(SeveralViews, SampleAlsoThoseThatAreNoRangeImages)
                                       [&](const Shell& shell) { return shell.point_index < first; });
   EXPECT_GT(of_first, 10);
   EXPECT_GT(result.shells.size() - of_first, 10U);
+}
+
+/// Each view has a sensor of its own.
+TEST(SeveralViews, HaveNormalsWhereTheSensorIsKnown)
+{
+  SeenScene scene(makeScene("table", 1), {0.0, 180.0});
+  scene.frames[1].cloud = unorganized(scene.frames[1].cloud);
+  scene.frames[1].cloud.sensor_origin.reset();
+  const Localization result = localizeViews(Config(), scene.views(2));
+  ASSERT_EQ(result.warnings.size(), 2U);
+  EXPECT_EQ(result.warnings[1].rfind("view 2: the place of the sensor is not known", 0), 0U) << result.warnings[1];
+  const std::size_t first = scene.frames[0].cloud.size();
+  std::size_t without = 0;
+  for (const Shell& shell : result.shells) {
+    EXPECT_EQ(shell.normal.allFinite(), shell.point_index < first);
+    without += shell.normal.allFinite() ? 0 : 1;
+  }
+  EXPECT_GT(without, 10U);
+  EXPECT_LT(without, result.shells.size());
+  for (const GraspHandle& handle : result.handles) {
+    const bool any_known = std::any_of(handle.shells.begin(), handle.shells.end(),
+                                       [&](std::uint32_t i) { return result.shells[i].normal.allFinite(); });
+    EXPECT_EQ(handle.normal.allFinite(), any_known);
+    EXPECT_TRUE(!any_known || std::abs(handle.normal.norm() - 1.0) < 1e-9);
+    for (const GraspPose& hand : handle.hand_poses) {
+      EXPECT_TRUE(hand.pose.matrix().allFinite());
+    }
+  }
 }
 
 double quantile(std::vector<double> values, double share)

@@ -14,6 +14,7 @@
 #include <pcl/point_types.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -78,6 +79,20 @@ TEST(CloseUp, CrossSectionLooksAlongTheAxisWithTheSensorAbove)
   ASSERT_EQ(section.cloud.size(), 1U) << "one beyond the length, one far beside";
   EXPECT_TRUE(section.cloud.point(0).isApprox(Eigen::Vector3f(0.0F, -0.015F, 2.01F), 1e-5F));
   EXPECT_TRUE(shell.centroid.isApprox(Eigen::Vector3d(0.0, 0.0, 2.0)));
+  EXPECT_TRUE(shell.normal.isApprox(-Eigen::Vector3d::UnitY()));
+}
+
+TEST(CloseUp, CrossSectionOfAShellWithoutANormalIsSeenFromAnySide)
+{
+  const Eigen::Vector3d middle(0.1, 0.2, 0.9);
+  Shell shell = makeShell();
+  shell.centroid = middle;
+  shell.axis = Eigen::Vector3d::UnitX();
+  shell.normal.setConstant(std::nan(""));
+  const Cloud cloud = cloudOf({middle + Eigen::Vector3d(0.01, 0.0, -0.015)});
+  const ColoredCloud section = crossSection(cloud, labelColors({1}), shell);
+  ASSERT_EQ(section.cloud.size(), 1U);
+  EXPECT_NEAR(section.cloud.point(0).head<2>().norm(), 0.015F, 1e-5F);
   EXPECT_TRUE(shell.normal.isApprox(-Eigen::Vector3d::UnitY()));
 }
 

@@ -198,7 +198,7 @@ TEST_F(PcdTest, readsWhatPclWrites)
     EXPECT_EQ(cloud.width, 5U);
     EXPECT_EQ(cloud.height, 4U);
     EXPECT_TRUE(cloud.organized());
-    EXPECT_EQ(cloud.sensor_origin, Eigen::Vector3f(0.5F, -1.0F, 2.0F));
+    EXPECT_EQ(cloud.sensor_origin.value(), Eigen::Vector3f(0.5F, -1.0F, 2.0F));
     ASSERT_EQ(cloud.size(), points.size());
     EXPECT_FALSE(cloud.measured(7));
     const float tolerance = std::string(encoding) == "ascii" ? 1e-7F : 0.0F;  // it is written with 8 digits
@@ -228,7 +228,7 @@ TEST_F(PcdTest, readsTheViewpointWithQwFirst)
   EXPECT_EQ(viewpoint.position, Eigen::Vector3d(1, -2, 0.5));
   EXPECT_EQ(viewpoint.orientation.w(), 0.5);
   EXPECT_EQ(viewpoint.orientation.vec(), Eigen::Vector3d(-0.5, 0.1, 0.7));
-  EXPECT_EQ(readPcdCloud(write(header.text() + kTwoPoints)).sensor_origin, Eigen::Vector3f(1, -2, 0.5));
+  EXPECT_EQ(readPcdCloud(write(header.text() + kTwoPoints)).sensor_origin.value(), Eigen::Vector3f(1, -2, 0.5));
 
   // As PCL means it: a quarter turn about z takes x to y.
   pcl::PointCloud<pcl::PointXYZ> points(1, 1);
@@ -240,6 +240,20 @@ TEST_F(PcdTest, readsTheViewpointWithQwFirst)
   const auto transform = viewpoint.transform();
   ASSERT_TRUE(transform);
   EXPECT_TRUE((*transform * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(0.1, 1.2, 0.3), 1e-5));
+}
+
+TEST_F(PcdTest, theDefaultViewpointSaysNothingOfTheSensor)
+{
+  const auto origin = [&](const std::string& viewpoint) {
+    Header header;
+    header.viewpoint = viewpoint;
+    return readPcdCloud(write(header.text() + kTwoPoints)).sensor_origin;
+  };
+  for (const char* viewpoint : {"", "VIEWPOINT 0 0 0 1 0 0 0\n", "VIEWPOINT 0 0 0 0 0 0 0\n"}) {
+    EXPECT_FALSE(origin(viewpoint)) << viewpoint;
+  }
+  EXPECT_EQ(origin("VIEWPOINT 0 0 0.25 1 0 0 0\n").value(), Eigen::Vector3f(0, 0, 0.25));
+  EXPECT_EQ(origin("VIEWPOINT 0 0 0 0.6 0 0.8 0\n").value(), Eigen::Vector3f(0, 0, 0)) << "turned, so somebody gave it";
 }
 
 TEST_F(PcdTest, aPoseNeedsAUnitQuaternionAndFiniteNumbers)

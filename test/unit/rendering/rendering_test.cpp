@@ -136,6 +136,41 @@ TEST_F(RenderingTest, cameraOfAnUnorganizedCloudStandsAtTheSensorAndTakesThePoin
   }
 }
 
+TEST_F(RenderingTest, cameraOfAnObjectModelStandsOutsideIt)
+{
+  Cloud cloud;
+  cloud.reset(1000, 1);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {  // a spiral on a cylinder about z, centred on the origin
+    const auto s = static_cast<float>(i);
+    cloud.set(i, 0.05F * std::cos(s), 0.05F * std::sin(s), 0.0002F * (s - 500.0F));
+  }
+  const PictureCamera camera = pictureCamera(cloud);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const auto pixel = camera.project(camera.camera_from_cloud * cloud.point(i).cast<double>());
+    ASSERT_TRUE(pixel) << "in front of the camera";
+  }
+  const auto top = camera.project(camera.camera_from_cloud * Eigen::Vector3d(0.0, 0.0, 0.1));
+  const auto bottom = camera.project(camera.camera_from_cloud * Eigen::Vector3d(0.0, 0.0, -0.1));
+  EXPECT_LT(top->y(), bottom->y());
+
+  cloud.sensor_origin = Eigen::Vector3f::Zero();
+  EXPECT_LT(pictureCamera(cloud).camera_from_cloud.translation().norm(), 1e-9) << "a known place is taken";
+}
+
+TEST_F(RenderingTest, drawsAShellWithoutANormalAsWell)
+{
+  Shell shell = makeShell();
+  shell.normal.setConstant(std::nan(""));
+  Picture picture(makeWall());
+  picture.drawShell(shell, kRed);
+  const Image image = saved(picture);
+  const auto at = [&](double right, double along) {
+    return image.at(*picture.project(shell.centroid + Eigen::Vector3d(right, along, 0.0)));
+  };
+  EXPECT_GT(redness(at(0.03, 0.02)), 0.2) << "filled inside";
+  EXPECT_LT(std::abs(redness(at(0.12, 0.0))), 0.02) << "nothing beside it";
+}
+
 TEST_F(RenderingTest, drawsAShellWhereItProjects)
 {
   for (const Cloud& cloud : {makeWall(), test::unorganized(makeWall())}) {

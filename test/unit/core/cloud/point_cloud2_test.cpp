@@ -180,13 +180,13 @@ TYPED_TEST(PointCloud2Test, keepsSensorAndAllocatesNothingForTheSameSize)
 {
   const auto message = makeMessage<TypeParam>();
   Cloud cloud;
-  cloud.sensor_origin = {1.0F, 2.0F, 3.0F};
+  cloud.sensor_origin = Eigen::Vector3f(1.0F, 2.0F, 3.0F);
   cloud.intrinsics = PinholeIntrinsics{525.0, 525.0, 319.5, 239.5};
   cloudFromPointCloud2(message, cloud);
   const std::size_t before = test::allocations;
   cloudFromPointCloud2(message, cloud);
   EXPECT_EQ(test::allocations - before, 0U);
-  EXPECT_EQ(cloud.sensor_origin, Eigen::Vector3f(1.0F, 2.0F, 3.0F));
+  EXPECT_EQ(cloud.sensor_origin.value(), Eigen::Vector3f(1.0F, 2.0F, 3.0F));
   EXPECT_TRUE(cloud.intrinsics.has_value());
 }
 

@@ -184,6 +184,12 @@ TEST(MedianCurvature, TellsTheInsideOfACylinderFromItsOutside)
     ASSERT_TRUE(curvature);
     EXPECT_TRUE(curvature->concave);
     EXPECT_NEAR(curvature->median, 1 / 0.03, 0.1 / 0.03);
+
+    const auto from_anywhere = medianCurvature(fit->quadric, view.neighborhood, {std::nullopt}, {kPoints, 1}, scratch);
+    ASSERT_TRUE(from_anywhere);
+    EXPECT_FALSE(from_anywhere->concave);
+    EXPECT_EQ(from_anywhere->median, curvature->median);
+    EXPECT_EQ(from_anywhere->axis, curvature->axis);
   }
 }
 

@@ -97,6 +97,37 @@ TEST(HandPoses, AreSortedByTheDocumentedScore)
   EXPECT_GT(judged, 20U);
 }
 
+/// Where the sensor's place is not known, a handle has no normal: no side of it is better than another.
+TEST(HandPoses, OfAHandleWithoutANormalAreScoredWithoutASide)
+{
+  const Cloud cloud = captureScene("table", 1).cloud;
+  const Cloud points = unorganized(cloud);
+  Config config;
+  std::size_t judged = 0;
+  for (GraspHandle handle : Localizer(config).localize(cloud).handles) {
+    handle.normal.setConstant(std::nan(""));
+    const double length = lengthOf(handle.polyline);
+    for (const GraspPose& hand : search(points, config, handle)) {
+      ASSERT_TRUE(hand.pose.matrix().allFinite());
+      EXPECT_NEAR(hand.pose.linear().determinant(), 1.0, 1e-9);
+      const double load =
+          bruteForceLoad({{&points, Pose::Identity()}}, config, hand.pose, std::min(handle.inner_radius, 0.026));
+      const double off = std::abs(placeAlong(handle.polyline, hand.pose.translation()) - length / 2) / (length / 2);
+      EXPECT_NEAR(hand.score, (1 - load * load + 1 - off) / 2, 1e-6);
+      ++judged;
+    }
+    // With a direction of approach the hand comes from there all the same.
+    Config from_above = config;
+    from_above.hand_poses.approach_y = 1.0;
+    from_above.hand_poses.max_approach_angle = 0.5;
+    for (const GraspPose& hand : search(points, from_above, handle)) {
+      EXPECT_GT(approach(hand).y(), std::cos(0.5) - 1e-6);
+      EXPECT_TRUE(std::isfinite(hand.score));
+    }
+  }
+  EXPECT_GT(judged, 20U);
+}
+
 /// With no free space asked for, a pose is there where the points in its corridor are too few, and nowhere else.
 TEST(HandPoses, AreThoseWhoseCorridorBruteForceFindsClear)
 {

@@ -55,6 +55,19 @@ TEST(AxisFrame, OfAVectorAlongTheAxisThereIsNoNormalButSomeIsGivenWhereAskedFor)
   EXPECT_NEAR(normal.dot(axis), 0.0, kRounding);
 }
 
+TEST(AxisFrame, AnUnknownNormalIsReplacedByAnyAcrossTheAxis)
+{
+  Random random(4);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d axis = random.direction();
+    const Eigen::Vector3d normal = normalAcross(axis, random.direction(), 1e-6);
+    EXPECT_TRUE(isKnown(normal));
+    EXPECT_EQ(normalOrAny(axis, normal), normal);
+    EXPECT_FALSE(isKnown(unknownNormal()));
+    expectRotation(rotationAlong(axis, normalOrAny(axis, unknownNormal())));
+  }
+}
+
 TEST(AxisFrame, MovesWithItsPointsAndDirections)
 {
   Random random(3);

@@ -70,6 +70,18 @@ TEST(Explanation, NamesTheDominatingOutcomeAndItsParameter)
   }
 }
 
+/// A table in the frame of a robot's base, which stands opposite and was taken for the sensor.
+TEST(Explanation, DoesNotBlameFlatnessForWhatEndedAsConcave)
+{
+  Localization result = endedIn(Outcome::low_curvature, 1948, 1962);
+  result.sampled = 2000;
+  result.counts[static_cast<std::size_t>(Outcome::concave)] = 33;
+  result.counts[static_cast<std::size_t>(Outcome::no_shell)] = 5;
+  const std::string text = explainNothing(result, Config());
+  expectSentence(text, {"of 2000 samples 33 ended", "(concave)", "the sensor's place", "estimation/reject_concave"});
+  EXPECT_EQ(text.find("flatter"), std::string::npos) << text;
+}
+
 TEST(Explanation, SaysThatShellsAreTooFewForAHandle)
 {
   Localization result = endedIn(Outcome::low_curvature);

@@ -192,5 +192,25 @@ TEST(HandleTracker, HandPosesMoveWithTheAxis)
   }
 }
 
+/// Where the sensor's place is not known, normals are NaN.
+TEST(HandleTracker, ANormalIsKnownWhereTheLastCloudHadOne)
+{
+  GraspHandle without = kBar;
+  without.normal.setConstant(std::nan(""));
+  HandleTracker tracker;
+  for (int i = 0; i < 12; ++i) {
+    const bool has_normal = i >= 4 && i < 8;
+    const Handles& known = tracker.update({has_normal ? kBar : without}, kPeriod * i);
+    ASSERT_EQ(ids(known), (Ids{1})) << "cloud " << i;
+    EXPECT_TRUE(known[0].centroid.allFinite() && known[0].axis.allFinite());
+    EXPECT_TRUE(known[0].hand_poses.at(0).pose.matrix().allFinite());
+    if (has_normal) {
+      EXPECT_LT((known[0].normal - kBar.normal).norm(), 1e-6) << "cloud " << i;
+    } else {
+      EXPECT_TRUE(known[0].normal.array().isNaN().all()) << "cloud " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace grasp_affordances::test

@@ -42,6 +42,23 @@ TEST(PoseMessage, OriginOnTheAxisZAlongTheAxisXAlongTheNormal)
   EXPECT_EQ(pose.position.z, 0.7);
 }
 
+TEST(PoseMessage, WithoutANormalIsAPoseNevertheless)
+{
+  Shell shell = tiltedShell();
+  shell.normal.setConstant(std::nan(""));
+  const geometry_msgs::Pose pose = poseMessage(shell);
+  const Eigen::Quaterniond orientation(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
+  EXPECT_NEAR(orientation.norm(), 1.0, 1e-12);
+  EXPECT_TRUE((orientation * Eigen::Vector3d::UnitZ()).isApprox(shell.axis, 1e-12));
+
+  GraspHandle handle;
+  handle.axis = shell.axis;
+  handle.normal = shell.normal;
+  const Handle message = handleMessage(handle, std_msgs::Header());
+  EXPECT_EQ(message.pose.orientation, pose.orientation);
+  EXPECT_TRUE(std::isnan(message.normal.x) && std::isnan(message.normal.y) && std::isnan(message.normal.z));
+}
+
 TEST(ShellsMessage, CarriesEveryFieldUnderTheHeaderOfTheCloud)
 {
   Localization localization;

@@ -156,6 +156,25 @@ TEST(HandleMarker, AHandClosesAroundTheHandle)
   }
 }
 
+TEST(HandleMarker, WithoutANormalHasAPoseNevertheless)
+{
+  GraspHandle handle = bentHandle();
+  handle.normal.setConstant(std::nan(""));
+  GraspPose hand;
+  hand.pose.translation() = handle.centroid;
+  const InteractiveMarker marker = drawn(handle, true, hand);
+  EXPECT_NEAR(pose(marker.pose).linear().determinant(), 1.0, 1e-9);
+  EXPECT_LT((pose(marker.pose).linear().col(2) - handle.axis).norm(), 1e-9);
+  for (const std::int32_t type : std::vector<std::int32_t>{Marker::CYLINDER, Marker::CUBE, Marker::TEXT_VIEW_FACING}) {
+    const std::vector<Marker> parts = ofType(marker, type);
+    EXPECT_FALSE(parts.empty());
+    for (const Marker& part : parts) {
+      EXPECT_TRUE(pose(part.pose).matrix().allFinite());
+      EXPECT_NEAR(pose(part.pose).linear().determinant(), 1.0, 1e-9);
+    }
+  }
+}
+
 TEST(HandleMarker, NoiseAndMotionOfTheWholeChangeThePoseOnly)
 {
   GraspHandle moved =

@@ -220,6 +220,28 @@ TEST(LocalizationMarkers, AnIdIsWrittenBesideItsHandle)
   EXPECT_LT(id.pose.position.z, 0.8 - 0.012 - id.scale.z / 2) << "towards the sensor, clear of the handle";
 }
 
+TEST(LocalizationMarkers, WithoutANormalHavePosesNevertheless)
+{
+  Localization localization;
+  localization.handles = {makeHandle(12)};
+  localization.handles[0].normal.setConstant(std::nan(""));
+  localization.shells.resize(1);
+  localization.shells[0].normal.setConstant(std::nan(""));
+  LocalizationMarkers markers;
+  const MarkerArray array = update(markers, localization);
+  for (const Marker& marker : array.markers) {
+    const geometry_msgs::Point& p = marker.pose.position;
+    const geometry_msgs::Quaternion& q = marker.pose.orientation;
+    EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) << marker.ns;
+    if (marker.action == Marker::ADD) {
+      EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1.0, 1e-9) << marker.ns;
+    }
+    if (marker.ns == "handle_ids") {
+      EXPECT_GT(std::hypot(p.y, p.z - 0.8), 0.012 + marker.scale.z / 2) << "clear of the handle";
+    }
+  }
+}
+
 TEST(LocalizationMarkers, AHandIsDrawnWhereItIsAndNotItsTool)
 {
   Config config;

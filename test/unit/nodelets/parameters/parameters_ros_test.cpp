@@ -54,17 +54,20 @@ TEST(NodeParameters, Frames)
   EXPECT_EQ(NodeParameters().target_frame, "");
   EXPECT_EQ(NodeParameters().fixed_frame, "");
   EXPECT_EQ(NodeParameters().approach_frame, "");
+  EXPECT_EQ(NodeParameters().sensor_frame, "");
   XmlRpcValue parameters;
   parameters["workspace_frame"] = "table";
   parameters["target_frame"] = "/base";
   parameters["fixed_frame"] = "/odom";
   parameters["approach_frame"] = "base_link";
+  parameters["sensor_frame"] = "/camera";
   parameters["transform_timeout"] = 1;
   const NodeParameters read = nodeParameters(parameters);
   EXPECT_EQ(read.workspace_frame, "table");
   EXPECT_EQ(read.target_frame, "base");
   EXPECT_EQ(read.fixed_frame, "odom");
   EXPECT_EQ(read.approach_frame, "base_link");
+  EXPECT_EQ(read.sensor_frame, "camera");
   EXPECT_EQ(read.transform_timeout, 1.0);
   EXPECT_TRUE(contains(refusal("", "target_frame", 3), "the name of a frame"));
   EXPECT_TRUE(contains(refusal("", "transform_timeout", -0.1), "[0, 10] s"));
@@ -127,6 +130,9 @@ TEST(MultiCameraParameters, AreRefused)
     EXPECT_TRUE(contains(refusal(), "an integer in [2, 8]")) << views;
   }
   parameters["views"] = 2;  // cppcheck-suppress redundantAssignment; refusal() reads it
+  XmlRpcValue with_sensor = parameters;
+  with_sensor["sensor_frame"] = "camera";
+  EXPECT_THROW(multiCameraParameters(with_sensor), ParameterError) << "each camera has a place of its own";
   parameters["slop"] = 0.1;
   EXPECT_TRUE(contains(refusal(), "unknown name"));
 }

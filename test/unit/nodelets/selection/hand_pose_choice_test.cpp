@@ -108,6 +108,18 @@ TEST(HandPoseChoice, StepsGoOnceAroundAndBack)
   EXPECT_EQ(choice.step(handle, kNoTool, false), first);
 }
 
+TEST(HandPoseChoice, StepsGoOnceAroundAHandleWithoutANormal)
+{
+  GraspHandle handle = handleWith({handAt(2.0, 0.0, 0.9), handAt(0.0, 0.0, 0.8), handAt(-2.0, 0.0, 0.7)});
+  handle.normal.setConstant(std::nan(""));
+  HandPoseChoice choice;
+  EXPECT_EQ(choice.follow(handle, kNoTool), 0U);
+  EXPECT_EQ(choice.step(handle, kNoTool, false), 2U) << "from 2 rad on to 4.28";
+  EXPECT_EQ(choice.step(handle, kNoTool, false), 1U);
+  EXPECT_EQ(choice.step(handle, kNoTool, false), 0U);
+  EXPECT_EQ(choice.step(handle, kNoTool, true), 1U);
+}
+
 TEST(HandPoseChoice, ATurnedToolChangesNothing)
 {
   HandPosesConfig config;
