@@ -6,6 +6,7 @@
 #include "nodelets/roscpp/name_claim.h"
 #include "openni2/device.h"
 #include "openni2/device_error.h"
+#include "openni2/lasting_thread.h"
 #include "openni2/runtime.h"
 
 #include <geometry_msgs/TransformStamped.h>
@@ -22,7 +23,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace grasp_affordances
@@ -63,9 +63,7 @@ public:
       closing_ = true;
     }
     closing_changed_.notify_all();
-    if (thread_.joinable()) {
-      thread_.join();
-    }
+    thread_.join();
   }
 
 private:
@@ -99,7 +97,7 @@ private:
   std::shared_ptr<OpenNi2Runtime> runtime_;  // kept also while there is no device, so that new devices are noticed
   std::unique_ptr<Device> device_;
   std::string last_complaint_;
-  std::thread thread_;
+  LastingThread thread_;
 };
 
 void XtionNodelet::onInit()
@@ -116,7 +114,7 @@ void XtionNodelet::onInit()
   if (parameters_.publish_tf) {
     publishTransforms();
   }
-  thread_ = std::thread([this] { run(); });
+  thread_ = LastingThread([this] { run(); });
 }
 
 void XtionNodelet::advertise()
