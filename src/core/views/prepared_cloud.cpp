@@ -53,8 +53,8 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
     search = &window_search_.emplace(*image, measured.size());
   } else {
     sensor = cloud->sensor_origin.cast<double>();
-    tree_search_ = makeTreeSearch(*cloud);
-    search = tree_search_.get();
+    tree_search_.update(*cloud, &team);
+    search = &tree_search_;
     if (config.occlusion.filter || config.shell.require_observed_gap || config.sampling.screen ||
         config.shell.continue_surfaces || config.shell.min_coverage > 0.0) {
       warning +=

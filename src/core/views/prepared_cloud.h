@@ -7,6 +7,7 @@
 #include "core/cloud/range_image.h"
 #include "core/fit/surface_normals.h"
 #include "core/neighborhoods/neighborhoods.h"
+#include "core/neighborhoods/tree_search.h"
 #include "core/neighborhoods/window_search.h"
 #include "core/parallel/thread_team.h"
 #include "core/views/hidden_surfaces.h"
@@ -15,7 +16,6 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -76,7 +76,7 @@ private:
   void findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
 
   std::optional<WindowSearch> window_search_;
-  std::unique_ptr<NeighborhoodSearch> tree_search_;
+  TreeSearch tree_search_;
   bool limited_ = false;                 // whether a workspace limits where samples are drawn
   std::vector<std::uint32_t> within_;    // where limited, the measured points within the workspace
   std::vector<std::uint8_t> is_within_;  // where limited, per point
