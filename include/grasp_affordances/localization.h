@@ -78,7 +78,8 @@ const char* describe(NothingSampled reason);
 struct Localization;
 
 /// A sentence for people that says why there is no handle and which parameter to look at. Empty where there is a
-/// handle. The reason is where most samples ended. May be called from any thread.
+/// handle. The reason is where most samples ended; where these are flat, as before a table, where most of the others
+/// did; or that an unorganized cloud is too sparse. May be called from any thread.
 /// @param config  with which the result was found
 std::string explainNothing(const Localization& localization, const Config& config);
 
@@ -100,7 +101,7 @@ struct Localization
 {
   std::vector<Shell> shells;                      ///< in the order of their samples
   std::vector<GraspHandle> handles;               ///< in the order of their ids: the best first
-  std::uint32_t points = 0;                       ///< measured points of the cloud
+  std::uint32_t points = 0;                       ///< measured points of the cloud, without those left out
   std::uint32_t sampled = 0;                      ///< samples drawn; the sum of `counts`
   std::uint32_t threads = 0;                      ///< number of threads that worked on it
   std::array<std::uint32_t, kOutcomes> counts{};  ///< indexed by Outcome
@@ -111,6 +112,9 @@ struct Localization
   double view_disagreement = std::numeric_limits<double>::quiet_NaN();
   NothingSampled nothing_sampled = NothingSampled::no_cloud;  ///< the reason, where `sampled` is 0
   std::vector<std::string> warnings;  ///< one line each: what of the cloud could not be used, and why
+  /// Distance (m) between neighboring points, where there is no handle and no view is a range image; else NaN. There
+  /// thresholds on numbers of points do not follow the density of points.
+  double point_spacing = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace grasp_affordances

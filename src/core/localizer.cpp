@@ -9,9 +9,11 @@
 #include "core/sample_loop.h"
 #include "core/views/prepared_views.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -32,6 +34,19 @@ void collect(const std::vector<SampleResult>& samples, Localization& result)
       result.shells.push_back(sample.shell);
     }
   }
+}
+
+/// m, in the densest view; NaN where a view is a range image.
+double pointSpacing(const PreparedViews& views, double radius)
+{
+  double spacing = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    if (views[view].image) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    spacing = std::fmin(spacing, views[view].spacing(radius));
+  }
+  return spacing;
 }
 
 }  // namespace
@@ -128,6 +143,8 @@ void Localizer::localize(const std::vector<PosedCloud>& views, Localization& res
   const SampleDraw& draw = own.loop.draw();
   own.handle_finder.find(own.views, own.config, {draw.points(), draw.size(), result.shells}, result.handles,
                          own.cancellation);
+  result.point_spacing = result.handles.empty() ? pointSpacing(own.views, own.config.hand.capture_radius)
+                                                : std::numeric_limits<double>::quiet_NaN();
   result.milliseconds.handles = stopwatch.lap();
   for (GraspHandle& handle : result.handles) {
     own.cancellation.check();

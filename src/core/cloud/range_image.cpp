@@ -151,6 +151,12 @@ std::optional<RangeImage> RangeImage::create(const Cloud& cloud, std::string& wa
   return RangeImage(cloud, *fit);
 }
 
+std::optional<RangeImage> RangeImage::create(const Cloud& cloud, const PinholeIntrinsics& intrinsics, ThreadTeam* team)
+{
+  const auto fit = checkIntrinsics(cloud, intrinsics, team);
+  return fit && fit->max_residual <= kMaxResidual ? std::optional<RangeImage>(RangeImage(cloud, *fit)) : std::nullopt;
+}
+
 RangeImage::RangeImage(const Cloud& cloud, const ReprojectionFit& fit)
     : cloud_(&cloud), intrinsics_(fit.intrinsics), margin_(fit.max_residual + 1e-3)
 {

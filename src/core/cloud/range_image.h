@@ -53,6 +53,11 @@ public:
   /// Allocates nothing but warnings.
   static std::optional<RangeImage> create(const Cloud& cloud, std::string& warning, ThreadTeam* team = nullptr);
 
+  /// The range image of an organized cloud by a camera with these intrinsics. Empty where points are too far from their
+  /// pixels.
+  static std::optional<RangeImage> create(const Cloud& cloud, const PinholeIntrinsics& intrinsics,
+                                          ThreadTeam* team = nullptr);
+
   /// The range image of another cloud of the same size by the same camera. Each of its points must be on its pixel's
   /// ray.
   RangeImage withCloud(const Cloud& cloud) const

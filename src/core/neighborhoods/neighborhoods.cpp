@@ -2,15 +2,11 @@
 
 #include "core/cloud/pixel_rows.h"
 #include "core/kernels/nearest.h"
+#include "core/neighborhoods/tree_search.h"
 #include "core/neighborhoods/window_search.h"
 
-#include <pcl/kdtree/kdtree_flann.h>
-#include <pcl/memory.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,89 +15,37 @@ namespace grasp_affordances
 namespace
 {
 
-/// The tree computes distances in its own way. So it is asked for a slightly larger sphere, and Neighborhood decides
-/// which of the points it finds are within. Where spheres hold a good part of the cloud, the whole cloud is gone
-/// through instead: that finds the same points and is much faster.
-class TreeSearch : public NeighborhoodSearch
+/// Sorts `count` keys by those of their bits that differ, the lowest first, in passes over a few bits each. The keys
+/// are a number (upper half) and a place (lower half), and are sorted by number alone.
+void sortByNumber(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& spare, std::size_t count,
+                  std::uint32_t largest)
 {
-public:
-  explicit TreeSearch(const Cloud& cloud) : cloud_(cloud)
-  {
-    // Not by new: the libraries of PCL are not C++17, and there the class has another operator new.
-    const auto points = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      if (cloud.measured(i)) {
-        points->push_back({cloud.x[i], cloud.y[i], cloud.z[i]});
-        index_.push_back(static_cast<std::uint32_t>(i));
-      }
-    }
-    tree_.setSortedResults(false);
-    if (!index_.empty()) {
-      tree_.setInputCloud(points);
-    }
+  constexpr std::size_t kFew = 256;
+  if (count < kFew) {
+    std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(count));
+    return;
   }
-
-  void withinRadius(const Eigen::Vector3f& center, float radius, Neighborhood& result) const override
-  {
-    result.clear(center, radius);
-    if (index_.empty() || !center.allFinite()) {
-      return;
+  constexpr unsigned kBits = 11;  // of a pass
+  constexpr std::uint64_t kValues = std::uint64_t{1} << kBits;
+  std::array<std::uint32_t, kValues> place;
+  for (unsigned shift = 0; (largest >> shift) > 0; shift += kBits) {
+    const auto digit = [shift](std::uint64_t key) { return (key >> (32U + shift)) & (kValues - 1); };
+    place.fill(0);
+    for (std::size_t i = 0; i < count; ++i) {
+      ++place[digit(keys[i])];
     }
-    if (crowded_.load(std::memory_order_relaxed)) {
-      result.appendRange(cloud_, 0, cloud_.size());
-    } else {
-      appendFromTree(center, radius, result);
+    std::uint32_t sum = 0;
+    for (std::uint32_t& p : place) {
+      const std::uint32_t points = p;
+      p = sum;
+      sum += points;
     }
-    crowded_.store(result.size() > cloud_.size() / kCrowd, std::memory_order_relaxed);
+    for (std::size_t i = 0; i < count; ++i) {
+      spare[place[digit(keys[i])]++] = keys[i];
+    }
+    keys.swap(spare);
   }
-
-  void nearest(const Eigen::Vector3f& center, std::size_t k, Neighborhood& result) const override
-  {
-    k = center.allFinite() ? std::min(k, index_.size()) : 0;
-    double radius = kSmallestRadius;
-    if (k > 0) {
-      static thread_local std::vector<int> found;
-      static thread_local std::vector<float> squared_distances;
-      tree_.nearestKSearch(toPcl(center), static_cast<int>(k), found, squared_distances);
-      radius = std::max(radius,
-                        kInflation * std::sqrt(*std::max_element(squared_distances.begin(), squared_distances.end())));
-    }
-    // The tree gives fewer than k where squares overflow, and its k-th distance differs from ours in the last bits.
-    withinRadius(center, static_cast<float>(radius), result);
-    for (; result.size() < k && radius < kLargestRadius; radius *= 2.0) {
-      withinRadius(center, static_cast<float>(radius), result);
-    }
-    if (result.size() < k) {
-      result.clear(center, std::numeric_limits<float>::infinity());
-      result.appendRange(cloud_, 0, cloud_.size());
-    }
-    result.keepNearest(k);
-  }
-
-private:
-  static constexpr double kInflation = 1.0001;
-  static constexpr double kSmallestRadius = 1e-18;  // m; within a radius of zero the tree finds nothing
-  static constexpr double kLargestRadius = 1e18;    // m; the square of a larger radius overflows
-  static constexpr std::size_t kCrowd = 64;  // finding a point in the tree costs as much as going through so many
-
-  static pcl::PointXYZ toPcl(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
-
-  void appendFromTree(const Eigen::Vector3f& center, float radius, Neighborhood& result) const
-  {
-    static thread_local std::vector<int> found;
-    static thread_local std::vector<float> squared_distances;
-    tree_.radiusSearch(toPcl(center), std::max(kInflation * radius, kSmallestRadius), found, squared_distances);
-    std::sort(found.begin(), found.end());
-    for (const int i : found) {
-      result.appendPoint(cloud_, index_[i]);
-    }
-  }
-
-  const Cloud& cloud_;
-  std::vector<std::uint32_t> index_;  // of the tree's points in the cloud
-  pcl::KdTreeFLANN<pcl::PointXYZ> tree_;
-  mutable std::atomic<bool> crowded_{false};  // whether the sphere searched last held many of the points
-};
+}
 
 }  // namespace
 
@@ -131,6 +75,40 @@ void Neighborhood::append(const Neighborhood& other, const Eigen::Isometry3d& T_
     y_[size_] = static_cast<float>(point.y());
     z_[size_] = static_cast<float>(point.z());
     index_[size_] = other.index_[i];
+  }
+}
+
+void Neighborhood::appendRenumbered(const Neighborhood& other, const std::uint32_t* numbers)
+{
+  makeRoom(other.size_);
+  if (keys_.size() < other.size_) {
+    keys_.resize(2 * other.size_);
+    spare_keys_.resize(keys_.size());
+  }
+  std::uint32_t smallest = std::numeric_limits<std::uint32_t>::max(), largest = 0, before = 0;
+  bool sorted = true;
+  for (std::size_t i = 0; i < other.size_; ++i) {
+    const std::uint32_t number = numbers[other.index_[i]];
+    keys_[i] = std::uint64_t{number} << 32U | i;
+    smallest = std::min(smallest, number);
+    largest = std::max(largest, number);
+    sorted = sorted && before <= number;
+    before = number;
+  }
+  if (!sorted) {
+    const std::uint64_t offset = std::uint64_t{smallest} << 32U;
+    for (std::size_t i = 0; i < other.size_; ++i) {
+      keys_[i] -= offset;
+    }
+    sortByNumber(keys_, spare_keys_, other.size_, largest - smallest);
+  }
+  const std::uint32_t first = sorted ? 0 : smallest;
+  for (std::size_t i = 0; i < other.size_; ++i, ++size_) {
+    const auto place = static_cast<std::uint32_t>(keys_[i]);
+    x_[size_] = other.x_[place];
+    y_[size_] = other.y_[place];
+    z_[size_] = other.z_[place];
+    index_[size_] = static_cast<std::uint32_t>(keys_[i] >> 32U) + first;
   }
 }
 
@@ -207,7 +185,9 @@ std::unique_ptr<NeighborhoodSearch> makeWindowSearch(const RangeImage& image, st
 
 std::unique_ptr<NeighborhoodSearch> makeTreeSearch(const Cloud& cloud)
 {
-  return std::make_unique<TreeSearch>(cloud);
+  auto search = std::make_unique<TreeSearch>();
+  search->update(cloud);
+  return search;
 }
 
 }  // namespace grasp_affordances

@@ -45,6 +45,11 @@ public:
   /// their own cloud.
   void append(const Neighborhood& other, const Eigen::Isometry3d& T_this_other);
 
+  /// Appends all points of another neighborhood, whose cloud holds the same points in another order: `numbers` are
+  /// their indices in this one's cloud, by their indices in the other's. They are appended in the order of these
+  /// numbers.
+  void appendRenumbered(const Neighborhood& other, const std::uint32_t* numbers);
+
   /// Keeps the k points nearest to the centre, and shrinks the radius to the k-th distance. Of points at the same
   /// distance those with the smaller index are kept. Needs at least k points.
   void keepNearest(std::size_t k);
@@ -57,6 +62,7 @@ private:
   std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> index_;
   std::vector<float> squared_distances_;
+  std::vector<std::uint64_t> keys_, spare_keys_;  // to sort points by their numbers
 };
 
 /// Finds the points of a cloud around a place. Every implementation returns the same points in the same order: those
@@ -82,7 +88,7 @@ public:
 /// outlive the search. @param points  number of measured points of the cloud
 std::unique_ptr<NeighborhoodSearch> makeWindowSearch(const RangeImage& image, std::size_t points);
 
-/// Searches any cloud in a k-d tree. The cloud must outlive the search.
+/// Searches any cloud in a k-d tree, as TreeSearch does. The cloud must outlive the search.
 std::unique_ptr<NeighborhoodSearch> makeTreeSearch(const Cloud& cloud);
 
 }  // namespace grasp_affordances

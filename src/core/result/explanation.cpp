@@ -2,8 +2,11 @@
 #include "grasp_affordances/localization.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -17,22 +20,34 @@ std::uint32_t count(const Localization& localization, Outcome outcome)
   return localization.counts[static_cast<std::size_t>(outcome)];
 }
 
-/// Whether more than half of the samples that were not flat ended as concave, and not just a few of them.
-bool restIsConcave(const Localization& localization)
-{
-  const std::uint32_t concave = count(localization, Outcome::concave);
-  const std::uint32_t rest = localization.sampled - count(localization, Outcome::low_curvature);
-  return 2 * concave > rest && 100 * concave > localization.sampled;
-}
-
-/// Where most of the samples ended that gave no shell. Before a table most are flat, whatever stands on it. Then
-/// concavity is the reason where it refused the rest.
-Outcome dominating(const Localization& localization)
+/// Where most of the samples ended that gave no shell.
+Outcome dominating(const std::array<std::uint32_t, kOutcomes>& counts)
 {
   static_assert(static_cast<std::size_t>(Outcome::shell) + 1 == kOutcomes, "the shells come last");
-  const auto begin = localization.counts.begin();
-  const auto most = static_cast<Outcome>(std::max_element(begin, localization.counts.end() - 1) - begin);
-  return most == Outcome::low_curvature && restIsConcave(localization) ? Outcome::concave : most;
+  return static_cast<Outcome>(std::max_element(counts.begin(), counts.end() - 1) - counts.begin());
+}
+
+/// Before a table most samples end on something flat, whatever stands on it. What became of the others tells more,
+/// unless they are too few.
+/// @param flat  how many samples are not looked at for that, out
+Outcome telling(const Localization& localization, std::uint32_t& flat)
+{
+  constexpr std::uint32_t kPerCent = 100;
+  flat = 0;
+  const Outcome most = dominating(localization.counts);
+  if (most != Outcome::low_curvature) {
+    return most;
+  }
+  auto others = localization.counts;
+  for (const Outcome outcome : {Outcome::low_curvature, Outcome::degenerate}) {
+    others[static_cast<std::size_t>(outcome)] = 0;
+  }
+  const Outcome next = dominating(others);
+  if (kPerCent * count(localization, next) <= localization.sampled || next == most) {
+    return most;
+  }
+  flat = count(localization, Outcome::low_curvature) + count(localization, Outcome::degenerate);
+  return next;
 }
 
 std::string millimetres(double metres)
@@ -124,10 +139,36 @@ std::string meaning(Outcome outcome, const Config& config)
 
 std::string whereSamplesEnded(const Localization& localization, const Config& config)
 {
-  const Outcome outcome = dominating(localization);
+  std::uint32_t flat = 0;
+  const Outcome outcome = telling(localization, flat);
   std::ostringstream text;
   text << "of " << localization.sampled << " samples " << count(localization, outcome) << " ended "
        << meaning(outcome, config) << " (" << outcomeName(outcome) << ")";
+  if (flat > 0) {
+    text << "; " << flat << " others are on flat surfaces, as those of tables and walls";
+  }
+  return text.str();
+}
+
+/// How many points the largest object that the hand can close around shows, on the side of the sensor, over the
+/// clearance length. Infinite where thresholds on numbers of points follow the density of points.
+double mostPointsInside(const Localization& localization, const Config& config)
+{
+  const double spacing = localization.point_spacing;
+  return spacing > 0.0 ? M_PI * config.hand.capture_radius * config.shell.clearance_length / (spacing * spacing)
+                       : std::numeric_limits<double>::infinity();
+}
+
+std::string sparseness(const Localization& localization, const Config& config)
+{
+  constexpr double kRounded = 1e-4;  // m
+  std::ostringstream text;
+  text << "the cloud is too sparse for this hand: neighboring points are some "
+       << millimetres(kRounded * std::round(localization.point_spacing / kRounded))
+       << " apart, so that over shell/clearance_length = " << millimetres(config.shell.clearance_length)
+       << " even an object of the capture radius of " << millimetres(config.hand.capture_radius)
+       << " shows fewer points than shell/min_points_inside = " << config.shell.min_points_inside
+       << ": use the cloud as it was before it was thinned out, for instance by a voxel grid, or lower that number";
   return text.str();
 }
 
@@ -144,6 +185,8 @@ std::string explainNothing(const Localization& localization, const Config& confi
     reason = whyNothingSampled(localization.nothing_sampled);
   } else if (!localization.shells.empty() && !late) {
     reason = shellsWithoutHandle(localization, config);
+  } else if (!late && mostPointsInside(localization, config) < config.shell.min_points_inside) {
+    reason = sparseness(localization, config);
   } else {
     reason = whereSamplesEnded(localization, config);
   }

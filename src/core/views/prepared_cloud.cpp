@@ -3,7 +3,10 @@
 #include "core/kernels/measured_kernels.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
+#include <sstream>
 
 namespace grasp_affordances
 {
@@ -56,9 +59,21 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
     return;
   }
 
+  usable_.update(new_cloud, &team);
+  warnings = usable_.warnings();
+  if (usable_.leftOut() > 0) {
+    cloud = &usable_.cloud();
+    listMeasured();
+    if (measured.empty()) {
+      leaveOut(NothingSampled::points_coincide);
+      return;
+    }
+  }
+  suspectUnit();
+
   findWorkspace(config.workspace, T_workspace_cloud, team);
-  std::string warning;
-  image = RangeImage::create(*cloud, warning, &team);
+  image = usable_.image();
+  std::string warning = usable_.whyNoImage();
   if (image) {
     sensor = Eigen::Vector3d::Zero();
     search = &window_search_.emplace(*image, measured.size());
@@ -66,8 +81,8 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
     if (cloud->sensor_origin && cloud->sensor_origin->allFinite()) {
       sensor = cloud->sensor_origin->cast<double>();
     }
-    tree_search_ = makeTreeSearch(*cloud);
-    search = tree_search_.get();
+    tree_search_.update(*cloud, &team);
+    search = &tree_search_;
     if (config.occlusion.filter || config.shell.require_observed_gap || config.sampling.screen ||
         config.shell.continue_surfaces || config.shell.min_coverage > 0.0) {
       warning +=
@@ -109,6 +124,39 @@ bool PreparedCloud::allCoincide() const
 {
   const Eigen::Vector3f first = cloud->point(measured.front());
   return std::all_of(measured.begin(), measured.end(), [&](std::uint32_t i) { return cloud->point(i) == first; });
+}
+
+/// Warns where nearly all points are so far away that no hand reaches them.
+void PreparedCloud::suspectUnit()
+{
+  constexpr float kFar = 50.0F;  // m
+  constexpr std::size_t kPoints = 256;
+  std::array<float, kPoints> ranges;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    ranges[i] = cloud->point(measured[i * measured.size() / kPoints]).norm();
+  }
+  std::sort(ranges.begin(), ranges.end());
+  if (ranges[kPoints / 20] > kFar) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "nearly all points are farther than " << kFar << " m from the origin, half of them farther than "
+         << ranges[kPoints / 2] << " m: coordinates must be in metres; are they in millimetres?";
+    warnings.push_back(text.str());
+  }
+}
+
+double PreparedCloud::spacing(double radius) const
+{
+  constexpr std::size_t kPoints = 15;
+  std::array<std::size_t, kPoints> neighbors;
+  Neighborhood neighborhood;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    search->withinRadius(cloud->point(measured[i * measured.size() / kPoints]), static_cast<float>(radius),
+                         neighborhood);
+    neighbors[i] = neighborhood.size();
+  }
+  std::sort(neighbors.begin(), neighbors.end());
+  return radius * std::sqrt(M_PI / static_cast<double>(neighbors[kPoints / 2]));
 }
 
 void PreparedCloud::findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud,

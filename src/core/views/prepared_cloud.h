@@ -5,8 +5,10 @@
 #include "grasp_affordances/localization.h"
 
 #include "core/cloud/range_image.h"
+#include "core/cloud/usable_cloud.h"
 #include "core/fit/surface_normals.h"
 #include "core/neighborhoods/neighborhoods.h"
+#include "core/neighborhoods/tree_search.h"
 #include "core/neighborhoods/window_search.h"
 #include "core/parallel/thread_team.h"
 #include "core/views/hidden_surfaces.h"
@@ -15,7 +17,6 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,10 @@ public:
   SphereView gatherNearest(const Eigen::Vector3f& center, std::size_t k, bool with_view,
                            Neighborhood& neighborhood) const;
 
+  /// Distance (m) between neighboring points, as their number within a radius (m) tells for surfaces: the median over
+  /// some points. Only where there is something to localize.
+  double spacing(double radius) const;
+
   /// The points that samples are drawn from: the measured ones within the workspace.
   const std::vector<std::uint32_t>& drawablePoints() const { return limited_ ? within_ : measured; }
 
@@ -56,8 +61,8 @@ public:
   /// Searches the range image; null where there is none.
   const WindowSearch* windowSearch() const { return image && window_search_ ? &*window_search_ : nullptr; }
 
-  const Cloud* cloud = nullptr;
-  std::vector<std::uint32_t> measured;  // indices of the measured points
+  const Cloud* cloud = nullptr;         // without points that are left out, see UsableCloud
+  std::vector<std::uint32_t> measured;  // indices of its measured points
   std::optional<RangeImage> image;
   PointScreen screen;                             // empty without an image
   const NeighborhoodSearch* search = nullptr;     // null where there is nothing to localize
@@ -73,10 +78,12 @@ private:
   void leaveOut(NothingSampled reason);
   void listMeasured();
   bool allCoincide() const;
+  void suspectUnit();
   void findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
 
+  UsableCloud usable_;
   std::optional<WindowSearch> window_search_;
-  std::unique_ptr<NeighborhoodSearch> tree_search_;
+  TreeSearch tree_search_;
   bool limited_ = false;                 // whether a workspace limits where samples are drawn
   std::vector<std::uint32_t> within_;    // where limited, the measured points within the workspace
   std::vector<std::uint8_t> is_within_;  // where limited, per point

@@ -1,4 +1,5 @@
 #include "core/neighborhoods/neighborhoods.h"
+#include "core/neighborhoods/tree_search.h"
 
 #include "core/parallel/thread_team.h"
 #include "io/bag.h"
@@ -10,8 +11,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grasp_affordances::test
@@ -170,6 +173,118 @@ TEST(NeighborhoodSearch, FindsTheSameInACrowd)
     const auto k = static_cast<std::size_t>(random.uniform(1, 700));
     tree->nearest(cloud.point(point), k, found);
     ASSERT_EQ(indicesOf(found), bruteForceNearest(cloud, cloud.point(point), k)) << i;
+  }
+}
+
+/// Points of a kind, and how far from one another they are.
+struct Arrangement
+{
+  const char* name;
+  double size;  // m
+  Eigen::Vector3d (*point)(int i, Random& random);
+};
+
+constexpr Arrangement kArrangements[] = {
+    {"cube", 1.0,
+     [](int, Random& random) {
+       const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+       return Eigen::Vector3d(x, y, random.uniform(0.5, 2));
+     }},
+    {"plane", 1.0,
+     [](int, Random& random) {
+       const double x = random.uniform(-1, 1);
+       return Eigen::Vector3d(x, random.uniform(-1, 1), 1.0);
+     }},
+    {"line, every point three times", 1.0, [](int i, Random&) { return Eigen::Vector3d(1e-3 * (i / 3), 0.2, 1.0); }},
+    {"crowds far apart", 1e-3,
+     [](int i, Random& random) {
+       const Eigen::Vector3d center(i % 5, 1e3 * (i % 2), 1.0);
+       return Eigen::Vector3d(center + 1e-3 * random.uniform(0, 1) * random.direction());
+     }},
+    {"one place and some others", 1.0,
+     [](int i, Random& random) {
+       const double x = i % 8 == 0 ? random.uniform(-1, 1) : 0.1;
+       return Eigen::Vector3d(x, 0.1, 1.0);
+     }},
+    {"a few very far away", 1.0,
+     [](int i, Random& random) {
+       const double size = i % 500 == 0 ? 1e18 : 1.0;
+       return Eigen::Vector3d(size * random.direction());
+     }},
+    {"all very far away", 1e18, [](int, Random& random) { return Eigen::Vector3d(1e18 * random.direction()); }},
+    {"all very near", 1e-18, [](int, Random& random) { return Eigen::Vector3d(1e-18 * random.direction()); }},
+    {"so near that squares underflow", 1e-21,
+     [](int, Random& random) {
+       return Eigen::Vector3d(1e-18 * Eigen::Vector3d::UnitX() + 1e-21 * random.direction());
+     }},
+};
+
+/// Whatever the extent of a cloud, its order, the radius, and the threads that make the tree.
+TEST(NeighborhoodSearch, FindsTheSameInTreesOfAnyPoints)
+{
+  for (const Arrangement& arrangement : kArrangements) {
+    for (const int count : {1, 63, 65, 130, 1000, 20000}) {
+      Random random(3);
+      Points points;
+      for (int i = 0; i < count; ++i) {
+        points.push_back(arrangement.point(i, random));
+      }
+      Cloud cloud = cloudOf(points);
+      for (std::size_t i = 5; i < cloud.size(); i += 7) {
+        cloud.x[i] = cloud.y[i] = cloud.z[i] = std::nanf("");
+      }
+      ThreadTeam three(3);
+      TreeSearch shared;
+      shared.update(cloudOf({{1, 2, 3}}));  // memory of another cloud
+      shared.update(cloud, &three);
+      const auto alone = makeTreeSearch(cloud);
+      Neighborhood from_shared, from_alone;
+      for (int i = 0; i < 20; ++i) {
+        const auto point = static_cast<std::size_t>(random.uniform(0, count));
+        const Eigen::Vector3f beside = (arrangement.size * random.uniform(0, 2) * random.direction()).cast<float>();
+        const Eigen::Vector3f center = cloud.measured(point) ? cloud.point(point) : beside;
+        const auto radius = static_cast<float>(arrangement.size * std::pow(10.0, random.uniform(-4, 1)));
+        const std::string where = std::string(arrangement.name) + ", " + std::to_string(count) + " points, place " +
+                                  std::to_string(i) + ", radius " + std::to_string(radius);
+        alone->withinRadius(center, radius, from_alone);
+        shared.withinRadius(center, radius, from_shared);
+        const Neighborhood expected = bruteForceNeighborhood(cloud, center, radius);
+        ASSERT_EQ(indicesOf(from_alone), indicesOf(expected)) << where;
+        ASSERT_EQ(indicesOf(from_shared), indicesOf(expected)) << where;
+        for (std::size_t j = 0; j < expected.size(); ++j) {
+          ASSERT_EQ(from_alone.point(j), expected.point(j)) << where;
+        }
+        const auto k = static_cast<std::size_t>(random.uniform(1, 600));
+        alone->nearest(center, k, from_alone);
+        shared.nearest(center, k, from_shared);
+        ASSERT_EQ(indicesOf(from_alone), bruteForceNearest(cloud, center, k)) << where << ", k " << k;
+        ASSERT_EQ(indicesOf(from_shared), indicesOf(from_alone)) << where << ", k " << k;
+      }
+    }
+  }
+}
+
+/// Points that are neighbors in space, in any order: they come back in the order of their indices.
+TEST(NeighborhoodSearch, FindsTheSameInAShuffledCloud)
+{
+  Random random(5);
+  Cloud cloud = unorganized(captureScene("table", 2).cloud);
+  for (std::size_t i = cloud.size() - 1; i > 0; --i) {
+    const auto other = static_cast<std::size_t>(random.uniform(0, static_cast<double>(i + 1)));
+    for (std::vector<float>* coordinates : {&cloud.x, &cloud.y, &cloud.z}) {
+      std::swap((*coordinates)[i], (*coordinates)[other]);
+    }
+  }
+  const auto tree = makeTreeSearch(cloud);
+  Neighborhood found;
+  for (std::size_t i = 0; i < cloud.size(); i += 3001) {
+    if (cloud.measured(i)) {
+      const auto radius = static_cast<float>(random.uniform(0.002, 0.2));
+      tree->withinRadius(cloud.point(i), radius, found);
+      ASSERT_EQ(indicesOf(found), indicesOf(bruteForceNeighborhood(cloud, cloud.point(i), radius))) << i;
+      tree->nearest(cloud.point(i), 500, found);
+      ASSERT_EQ(indicesOf(found), bruteForceNearest(cloud, cloud.point(i), 500)) << i;
+    }
   }
 }
 

@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -80,6 +83,69 @@ TEST(Explanation, DoesNotBlameFlatnessForWhatEndedAsConcave)
   const std::string text = explainNothing(result, Config());
   expectSentence(text, {"of 2000 samples 33 ended", "(concave)", "the sensor's place", "estimation/reject_concave"});
   EXPECT_EQ(text.find("flatter"), std::string::npos) << text;
+}
+
+/// Before a table most samples are flat, whatever stands on it.
+TEST(Explanation, LooksAtHowTheSamplesEndedThatWereNotFlat)
+{
+  Localization result;
+  result.sampled = 2000;
+  const auto set = [&](Outcome outcome, std::uint32_t count) {
+    result.counts[static_cast<std::size_t>(outcome)] = count;
+  };
+  set(Outcome::low_curvature, 1900);
+  set(Outcome::degenerate, 30);
+  set(Outcome::no_shell, 50);
+  set(Outcome::too_short, 20);
+  const std::string text = explainNothing(result, Config());
+  expectSentence(text, {"of 2000 samples 50 ended where no radius", "(no_shell)", "1930 others are on flat surfaces"});
+  EXPECT_EQ(text.find("flatter"), std::string::npos) << text;
+
+  // A hundredth of the samples may be noise.
+  set(Outcome::low_curvature, 1950);
+  set(Outcome::no_shell, 20);
+  set(Outcome::too_short, 0);
+  expectSentence(explainNothing(result, Config()), {"of 2000 samples 1950 ended", "(low_curvature)"});
+}
+
+/// The centroids of cells of a voxel grid.
+Cloud voxelGrid(const Cloud& cloud, double size)
+{
+  std::map<std::array<int, 3>, std::pair<Eigen::Vector3d, int>> cells;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.measured(i)) {
+      const Eigen::Vector3d point = cloud.point(i).cast<double>();
+      const Eigen::Array3i cell = (point / size).array().floor().cast<int>();
+      auto& [sum, count] =
+          cells.emplace(std::array<int, 3>{cell[0], cell[1], cell[2]}, std::make_pair(Eigen::Vector3d::Zero(), 0))
+              .first->second;
+      sum += point;
+      ++count;
+    }
+  }
+  Points points;
+  for (const auto& [cell, sum] : cells) {
+    points.push_back(sum.first / sum.second);
+  }
+  return cloudOf(points);
+}
+
+TEST(Explanation, SaysThatACloudWasThinnedOutTooMuch)
+{
+  const Cloud cloud = captureScene("table", 1).cloud;
+  const Localization thin = Localizer().localize(voxelGrid(cloud, 0.01));
+  EXPECT_TRUE(thin.handles.empty());
+  EXPECT_NEAR(thin.point_spacing, 0.01, 0.002);
+  const std::string text = explainNothing(thin, Config());
+  expectSentence(text, {"too sparse", "9.4 mm apart", "26 mm", "shell/min_points_inside = 40", "voxel grid"});
+  EXPECT_EQ(text.find("flatter"), std::string::npos) << text;
+
+  // A grid of 3 mm is fine enough, and thresholds of a range image follow its density.
+  EXPECT_FALSE(Localizer().localize(voxelGrid(cloud, 0.003)).handles.empty());
+  EXPECT_TRUE(std::isnan(Localizer().localize(captureScene("empty_table", 1).cloud).point_spacing));
+  const Localization fine = Localizer().localize(voxelGrid(captureScene("empty_table", 1).cloud, 0.003));
+  EXPECT_NEAR(fine.point_spacing, 0.003, 0.001);
+  expectSentence(explainNothing(fine, Config()), {"flatter", "(low_curvature)"});
 }
 
 TEST(Explanation, SaysThatShellsAreTooFewForAHandle)
