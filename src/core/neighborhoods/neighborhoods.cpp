@@ -5,9 +5,13 @@
 #include "core/neighborhoods/window_search.h"
 
 #include <pcl/kdtree/kdtree_flann.h>
-#include <pcl/memory.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
+#if __has_include(<pcl/memory.h>)
+#include <pcl/memory.h>
+#else  // PCL 1.10
+#include <pcl/make_shared.h>
+#endif
 
 #include <algorithm>
 #include <atomic>
@@ -114,7 +118,9 @@ void Neighborhood::clear(const Eigen::Vector3f& new_center, float new_radius)
 
 void Neighborhood::appendRange(const Cloud& cloud, std::size_t begin, std::size_t end)
 {
-  append({cloud.x.data(), cloud.y.data(), cloud.z.data(), cloud.size(), begin, 1, end - begin, 0}, true);
+  makeRoom(end - begin);
+  size_ += gatherUnsurveyed({cloud.x.data(), cloud.y.data(), cloud.z.data(), cloud.size(), begin, 1, end - begin, 0},
+                            center.data(), radius * radius, {&x_[size_], &y_[size_], &z_[size_], &index_[size_]});
 }
 
 SphereSurvey Neighborhood::appendWindow(const Cloud& cloud, const PixelWindow& window, bool with_index)
