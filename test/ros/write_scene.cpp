@@ -1,5 +1,5 @@
-// write_scene SCENE SEED TURN NOISE_SEED FILE: what the tool simulate writes as --out, without the labels of affordances,
-// for the tests of ROS: they also run where CLI11 is missing, and the tools with it.
+// write_scene SCENE SEED TURN NOISE_SEED FILE: what the tool simulate writes as --out, without the labels of
+// affordances, for the tests of ROS: they also run where CLI11 is missing, and the tools with it.
 
 #include "simulation/camera_orbit.h"
 #include "simulation/placement.h"
