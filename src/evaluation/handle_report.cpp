@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 namespace grasp_affordances
 {
@@ -14,7 +15,7 @@ using Json = nlohmann::json;
 constexpr double kDegreesPerRadian = 57.29577951308232;
 constexpr double kMillimetresPerMetre = 1000.0;
 
-const HandlesPerAffordance& ofClass(const HandleScore& score, const std::string& key)
+const HandlesPerAffordance& ofClass(const HandleScore& score, std::string_view key)
 {
   const auto visibility = std::find_if(kVisibilityClasses.begin(), kVisibilityClasses.end(),
                                        [&](const VisibilityClass& candidate) { return candidate.key == key; });

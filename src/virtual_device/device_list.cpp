@@ -39,6 +39,14 @@ void checkScene(const std::string& name)
     throw std::invalid_argument("there is no scene '" + name + "'");
 }
 
+/// yaml-cpp up to 0.6 takes -1 for the largest number.
+std::uint64_t wholeNumber(const YAML::Node& node)
+{
+  if (node.IsScalar() && node.Scalar().find('-') != std::string::npos)
+    throw YAML::TypedBadConversion<std::uint64_t>(node.Mark());
+  return node.as<std::uint64_t>();
+}
+
 VirtualDeviceSettings parseDevice(const YAML::Node& node)
 {
   VirtualDeviceSettings device;
@@ -51,13 +59,13 @@ VirtualDeviceSettings parseDevice(const YAML::Node& node)
     else if (key == "scene")
       device.scene.scene = entry.second.as<std::string>();
     else if (key == "seed")
-      device.scene.seed = entry.second.as<std::uint64_t>();
+      device.scene.seed = wholeNumber(entry.second);
     else if (key == "noise_seed")
-      device.scene.noise_seed = entry.second.as<std::uint64_t>();
+      device.scene.noise_seed = wholeNumber(entry.second);
     else if (key == "turn_deg")
       device.scene.turn_deg = entry.second.as<double>();
     else if (key == "frames")
-      device.scene.frames = entry.second.as<std::uint64_t>();
+      device.scene.frames = wholeNumber(entry.second);
     else if (key == "state")
       device.state = deviceState(entry.second.as<std::string>());
     else

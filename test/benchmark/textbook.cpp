@@ -6,6 +6,7 @@
 #include <pcl/common/centroid.h>
 #include <pcl/common/point_tests.h>
 #include <pcl/features/normal_3d.h>
+#include <pcl/pcl_config.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/search/organized.h>
 #include <Eigen/Cholesky>
@@ -187,11 +188,7 @@ public:
       search_->setInputCloud(cloud);
     }
     if (config.estimation.estimator == Estimator::normals) {
-      pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
-      estimation.setInputCloud(cloud);
-      estimation.setSearchMethod(search_);
-      estimation.setRadiusSearch(config.estimation.normals_radius);
-      estimation.compute(normals_);
+      computeNormals(config.estimation.normals_radius);
     }
   }
 
@@ -201,6 +198,7 @@ public:
   StageTimes times;  // summed over the samples
 
 private:
+  void computeNormals(double radius);
   void findNeighborhood();
   bool isOccluded() const;
   std::optional<Curvature> estimateAxis(std::mt19937& random);
@@ -248,6 +246,30 @@ Outcome Frame::examine(std::uint32_t index, std::mt19937& random, Shell& shell)
   const Outcome outcome = fitShell(curvature->axis, shell);
   times.shell += stopwatch.lap();
   return outcome;
+}
+
+void Frame::computeNormals(double radius)
+{
+#if PCL_VERSION_COMPARE(>=, 1, 12, 0)
+  pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
+  estimation.setInputCloud(cloud_);
+  estimation.setSearchMethod(search_);
+  estimation.setRadiusSearch(radius);
+  estimation.compute(normals_);
+#else  // which sums covariances in single precision, and loses most of their digits
+  normals_.resize(cloud_->size());
+  for (std::size_t i = 0; i < cloud_->size(); ++i) {
+    Eigen::Map<Eigen::Vector3f> normal = normals_.points[i].getNormalVector3fMap();
+    normal.setConstant(std::numeric_limits<float>::quiet_NaN());
+    if (pcl::isFinite(cloud_->points[i]) &&
+        search_->radiusSearch(cloud_->points[i], radius, indices_, squared_distances_) >= 3) {
+      Eigen::Matrix3d covariance;
+      Eigen::Vector4d centroid;
+      pcl::computeMeanAndCovarianceMatrix(*cloud_, indices_, covariance, centroid);
+      normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0).cast<float>();
+    }
+  }
+#endif
 }
 
 void Frame::findNeighborhood()
@@ -306,11 +328,11 @@ std::optional<Curvature> Frame::estimateAxis(std::mt19937& random)
     return quadric ? medianCurvature(*quadric, points_, config_.estimation.curvature_points, random) : std::nullopt;
   }
   if (config_.estimation.estimator == Estimator::pca) {
-    Eigen::Matrix3f covariance;
-    Eigen::Vector4f centroid;
+    Eigen::Matrix3d covariance;  // PCL up to 1.11 loses most digits of it in single precision
+    Eigen::Vector4d centroid;
     pcl::computeMeanAndCovarianceMatrix(*cloud_, indices_, covariance, centroid);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(covariance);
-    return Curvature{kUnknown, solver.eigenvectors().col(2).cast<double>()};
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    return Curvature{kUnknown, solver.eigenvectors().col(2)};
   }
   Eigen::Matrix3f sum = Eigen::Matrix3f::Zero();
   for (const int i : indices_) {

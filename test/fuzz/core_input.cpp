@@ -226,11 +226,11 @@ Eigen::Isometry3d decodePose(ByteReader& input)
   }
   Eigen::Vector3d position;
   Eigen::Quaterniond orientation;
-  for (double& value : position) {
-    value = input.take<float>();
+  for (int i = 0; i < 3; ++i) {
+    position[i] = input.take<float>();
   }
-  for (double& value : orientation.coeffs()) {
-    value = input.take<std::int8_t>() / 127.0;
+  for (int i = 0; i < 4; ++i) {
+    orientation.coeffs()[i] = input.take<std::int8_t>() / 127.0;
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = position;

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Configured without OpenNI2, the package has no driver and no virtual devices, says so, and keeps all the rest."""
+"""Configured without OpenNI2, the package has no driver and no virtual devices, without CLI11 no tools; it says so, and
+keeps all the rest."""
 
 import argparse
 import json
@@ -14,6 +15,9 @@ LEFT_OUT = ('grasp_affordances_openni2', 'grasp_affordances_virtual_device', 'xt
 KEPT = ('grasp_affordances_cameras', 'grasp_affordances_nodelets', 'pcd_publisher', 'camera_nodes', 'localizer_node',
         'nodelets_test', 'rostest_nodes')
 MESSAGE = 'Without OpenNI2 (Debian package libopenni2-dev)'
+TOOLS = ('localize', 'simulate', 'evaluate', 'localize_test', 'frame_ratios')
+KEPT_WITHOUT_TOOLS = KEPT + ('write_scene', 'fuzz_cases')
+TOOLS_MESSAGE = 'CLI11 was not found (Debian package libcli11-dev)'
 STAND_IN = 'xtion_nodelet_left_out.cpp'
 OPENNI2_SOURCES = r'/src/(openni2|virtual_device)/|/xtion_nodelet\.cpp$|/xtion_node\.cpp$|/xtion_parameters'
 
@@ -29,11 +33,15 @@ def run(command, **options):
                           **options).stdout
 
 
+def check_targets(cmake, folder, left_out, kept):
+    targets = set(re.findall(r'[\w.+-]+', run([cmake, '--build', folder, '--target', 'help'])))
+    assert not targets.intersection(left_out), targets.intersection(left_out)
+    assert targets.issuperset(kept), set(kept) - targets
+
+
 def check_build(cmake, folder, said):
     assert said.count(MESSAGE) == 1, said
-    targets = set(re.findall(r'[\w.+-]+', run([cmake, '--build', folder, '--target', 'help'])))
-    assert not targets.intersection(LEFT_OUT), targets.intersection(LEFT_OUT)
-    assert targets.issuperset(KEPT), set(KEPT) - targets
+    check_targets(cmake, folder, LEFT_OUT, KEPT)
     with open(os.path.join(folder, 'compile_commands.json')) as file:
         commands = json.load(file)
     sources = [entry['file'] for entry in commands if re.search(OPENNI2_SOURCES, entry['file'])]
@@ -60,6 +68,10 @@ def main():
         check_build(arguments.cmake, build, run(configure + ['-DGRASP_AFFORDANCES_OPENNI2=OFF']))
         commands = check_build(arguments.cmake, build, run(configure + ['-DGRASP_AFFORDANCES_OPENNI2=ON',
                                                                         '-DPKG_CONFIG_EXECUTABLE=' + pkg_config]))
+
+        said = run(configure + ['-DCMAKE_DISABLE_FIND_PACKAGE_CLI11=ON'])
+        assert said.count(TOOLS_MESSAGE) == 1, said
+        check_targets(arguments.cmake, build, TOOLS, KEPT_WITHOUT_TOOLS)
 
         # What stands in for the driver's nodelet compiles.
         entry = commands[STAND_IN]

@@ -37,6 +37,12 @@ def executable(package, name):
     return roslib.packages.find_node(package, name)[0]
 
 
+def write_scene(name, file, seed=1, turn=0, noise_seed=0):
+    """Writes a PCD file with what a camera sees of a simulated scene; `turn`: of the camera, in degrees."""
+    subprocess.run([executable('grasp_affordances', 'write_scene'), name, str(seed), str(turn), str(noise_seed), file],
+                   check=True, timeout=60 * TIME_FACTOR)
+
+
 def scene(name):
     """Path of a PCD file with a simulated scene, seed 1."""
     global _scenes
@@ -45,8 +51,7 @@ def scene(name):
         atexit.register(shutil.rmtree, _scenes)
     path = os.path.join(_scenes, name + '.pcd')
     if not os.path.exists(path):
-        subprocess.run([executable('grasp_affordances', 'simulate'), '--scene', name, '--seed', '1', '--out', path],
-                       check=True, stdout=subprocess.DEVNULL, timeout=60 * TIME_FACTOR)
+        write_scene(name, path)
     return path
 
 

@@ -19,7 +19,8 @@ from tf2_msgs.msg import TFMessage
 
 from grasp_affordances.msg import CylindricalShellArray, LocalizationStatistics
 from grasp_affordances.srv import LocalizeNext
-from helpers import ABNORMAL_ENDS, TIME_FACTOR, Launch, Listener, Process, executable, publisher, wait_until
+from helpers import (ABNORMAL_ENDS, TIME_FACTOR, Launch, Listener, Process, executable, publisher, wait_until,
+                     write_scene)
 
 TURNS = (0, 60, -60)  # degrees, of the cameras about the table
 POINTS = 640 * 480
@@ -48,9 +49,7 @@ class Multiview(unittest.TestCase):
         cls.files = [os.path.join(cls.folder.name, '%d.pcd' % turn) for turn in TURNS]
         cls.clouds = []
         for number, (file, turn) in enumerate(zip(cls.files, TURNS), 1):
-            subprocess.run([executable('grasp_affordances', 'simulate'), '--scene', 'table', '--turn=%d' % turn,
-                            '--noise-seed', str(1000 * number), '--out', file],
-                           check=True, stdout=subprocess.DEVNULL, timeout=60)
+            write_scene('table', file, turn=turn, noise_seed=1000 * number)
             with publisher(file, frame='camera_%d' % number):
                 listener = Listener('points', PointCloud2)
                 cls.clouds.append(listener.wait())

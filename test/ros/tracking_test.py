@@ -5,7 +5,6 @@ import copy
 import math
 import os
 import shutil
-import subprocess
 import tempfile
 import time
 import unittest
@@ -18,7 +17,7 @@ from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
 
 from grasp_affordances.msg import HandleArray, LocalizationStatistics
-from helpers import Launch, Listener, Process, executable, publisher, rotated, wait_until
+from helpers import Launch, Listener, Process, publisher, rotated, wait_until, write_scene
 
 CAMERA = 'by_hand_optical'
 PERIOD = 0.1  # s
@@ -85,8 +84,7 @@ class Tracking(unittest.TestCase):
     def cloud(cls, scene, noise):
         """What a still camera sees of a scene; its noise varies."""
         file = os.path.join(cls.folder, '%s_%d.pcd' % (scene, noise))
-        subprocess.run([executable('grasp_affordances', 'simulate'), '--scene', scene, '--noise-seed', str(1000 * noise),
-                        '--out', file], check=True, stdout=subprocess.DEVNULL, timeout=60)
+        write_scene(scene, file, noise_seed=1000 * noise)
         # On a topic of its own: rospy may yet connect a listener that was just closed to a publisher that is new.
         with publisher(file, rate=5, frame=CAMERA, topic='simulated'):
             listener = Listener('simulated', PointCloud2)

@@ -203,8 +203,11 @@ def launch_faults(root, all_pages):
 
 
 def options_of(executables, program):
-    done = subprocess.run([os.path.join(executables, program), '--help'], stdout=subprocess.PIPE, timeout=60,
-                          check=True)
+    """None: it is not built, as where CLI11 is missing."""
+    path = os.path.join(executables, program)
+    if not os.path.exists(path):
+        return None
+    done = subprocess.run([path, '--help'], stdout=subprocess.PIPE, timeout=60, check=True)
     return set(re.findall(r'(?<![\w-])--?[a-z][\w-]*', done.stdout.decode()))
 
 
@@ -214,14 +217,14 @@ def program_faults(root, executables, all_pages):
     for path, page in all_pages.items():
         for command in list(page.commands()) + page.code():
             for name in re.findall(r'\brosrun %s (\S+)' % PACKAGE, command):
-                if name not in OPTIONAL and name not in scripts | set(os.listdir(executables)):
+                if name not in OPTIONAL.union(PROGRAMS) and name not in scripts | set(os.listdir(executables)):
                     yield '%s: there is no program %s' % (path, name)
             for part in re.split(r'&&|;|\|', command):
                 words = part.split()
                 program = os.path.basename(words[0]) if words else ''
                 if words[:2] == ['rosrun', PACKAGE] and len(words) > 2:
                     program = words[2]
-                if program not in PROGRAMS:
+                if options.get(program) is None:
                     continue
                 for option in re.findall(r'(?<!\S)--?[a-z][\w-]*', part):
                     if option not in options[program]:

@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <type_traits>
 
 namespace grasp_affordances
 {
@@ -41,6 +42,9 @@ template <typename T>
 T valueAs(const std::string& name, const YAML::Node& node, const char* kind)
 {
   try {
+    if (std::is_unsigned<T>::value && textOf(node).find('-') != std::string::npos) {
+      throw YAML::TypedBadConversion<T>(node.Mark());  // yaml-cpp up to 0.6 takes -1 for the largest number
+    }
     return node.as<T>();
   } catch (const YAML::Exception&) {
     throw ParameterError(name + ": '" + textOf(node) + "' is not " + kind);

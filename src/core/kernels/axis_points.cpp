@@ -185,6 +185,7 @@ struct ShellPoints
   HWY_ATTR HWY_INLINE Condition upTo(double squared) const { return hn::Le(squared_radius.lanes, Real(squared).lanes); }
 };
 
+#ifdef GRASP_AFFORDANCES_HIGHWAY
 HWY_ATTR ShellCounts countPoints(const AxisPoints& points, const ShellBounds& shell)
 {
   const Real::D d;
@@ -201,6 +202,33 @@ HWY_ATTR ShellCounts countPoints(const AxisPoints& points, const ShellBounds& sh
   }
   return counts;
 }
+#else
+/// Two at a time, in vectors of the compiler: it makes none by itself of conditions that are counted.
+ShellCounts countPoints(const AxisPoints& points, const ShellBounds& shell)
+{
+  using Numbers = double __attribute__((vector_size(16)));
+  using Counts = std::int64_t __attribute__((vector_size(16)));  // true is -1
+  static_assert(kAxisPointGroup % 2 == 0, "groups of points fill vectors");
+  const auto load = [](const double* from) { return Numbers{from[0], from[1]}; };
+  const ShellBounds bounds = shell;
+  Counts short_of_filled{}, inside{}, up_to_outer{};
+  for (std::size_t i = 0; i < points.size; i += 2) {
+    const Numbers along = load(points.along + i);
+    const Numbers dx = load(points.first + i) - bounds.center[0], dy = load(points.second + i) - bounds.center[1];
+    const Numbers squared_radius = dx * dx + dy * dy;
+    const Counts between = (along >= bounds.begin) & (along <= bounds.end);
+    short_of_filled -= between & (squared_radius <= bounds.squared_filled);
+    inside -= between & (squared_radius <= bounds.squared_inner);
+    up_to_outer -= between & (squared_radius <= bounds.squared_outer);
+  }
+  const auto sum = [](const Counts& counts) { return static_cast<std::uint32_t>(counts[0] + counts[1]); };
+  ShellCounts counts;
+  counts.short_of_filled = sum(short_of_filled);
+  counts.inside = sum(inside);
+  counts.up_to_outer = sum(up_to_outer);
+  return counts;
+}
+#endif
 
 HWY_ATTR AlongRange insideRange(const AxisPoints& points, const ShellBounds& shell)
 {

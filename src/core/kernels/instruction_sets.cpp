@@ -1,5 +1,6 @@
 #include "core/kernels/instruction_sets.h"
 
+#include <cstdint>
 #include <stdexcept>
 
 #ifdef GRASP_AFFORDANCES_HIGHWAY

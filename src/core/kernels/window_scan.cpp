@@ -34,7 +34,8 @@ enum class Keeping
 {
   nothing,
   points,
-  points_and_indices
+  points_and_indices,
+  unsurveyed  // points and indices; nothing else is asked for
 };
 
 /// Goes through the points of a window, and keeps those within a sphere.
@@ -47,20 +48,24 @@ struct SphereScan
     const auto px = hn::LoadU(f, x + i), py = hn::LoadU(f, y + i), pz = hn::LoadU(f, z + i);
     const auto squared =
         squaredLength(hn::Sub(px, hn::Set(f, cx)), hn::Sub(py, hn::Set(f, cy)), hn::Sub(pz, hn::Set(f, cz)));
-    const auto range = squaredLength(px, py, pz), infinity = hn::Set(f, kInfinity);
     // False for NaN: a point that was not measured is in no sphere, and not the closest one.
     const auto inside = hn::And(counts, hn::Le(squared, hn::Set(f, squared_radius)));
-    const auto range_inside = hn::IfThenElse(inside, range, infinity);
-    keepSmallest(f, range_inside, closest, rest_closest);
+    if constexpr (Keep != Keeping::unsurveyed) {
+      const auto range = squaredLength(px, py, pz), infinity = hn::Set(f, kInfinity);
+      const auto range_inside = hn::IfThenElse(inside, range, infinity);
+      keepSmallest(f, range_inside, closest, rest_closest);
+      if constexpr (Keep != Keeping::nothing) {
+        const auto range_in_window = hn::IfThenElse(hn::And(counts, hn::Lt(range, infinity)), range, infinity);
+        keepSmallest(f, range_in_window, closest_in_window, rest_closest_in_window);
+      }
+    }
     if constexpr (Keep != Keeping::nothing) {
-      const auto range_in_window = hn::IfThenElse(hn::And(counts, hn::Lt(range, infinity)), range, infinity);
-      keepSmallest(f, range_in_window, closest_in_window, rest_closest_in_window);
       const Compaction<Tag> kept(inside);
-      if (kept.count > 0) {
+      if (hn::MaxLanes(f) == 1 || kept.count > 0) {  // of one lane nobody can tell in advance: it is written anyway
         hn::StoreU(kept(px), f, to.x + points);
         hn::StoreU(kept(py), f, to.y + points);
         hn::StoreU(kept(pz), f, to.z + points);
-        if constexpr (Keep == Keeping::points_and_indices) {
+        if constexpr (Keep != Keeping::points) {
           const hn::Rebind<std::uint32_t, Tag> u;
           hn::StoreU(kept(hn::Add(hn::Set(u, static_cast<std::uint32_t>(i)), hn::Iota(u, 0))), u, to.index + points);
         }
@@ -100,6 +105,9 @@ HWY_ATTR HWY_INLINE SphereSurvey scanSphere(const PixelRows& window, const float
   }
   const auto smallest = [](Floats values, float rest)
                             HWY_ATTR { return std::min(rest, hn::GetLane(hn::MinOfLanes(F(), values))); };
+  if constexpr (Keep == Keeping::unsurveyed) {
+    return {scan.points, 0.0F, 0.0F};
+  }
   return {scan.points, smallest(scan.closest, scan.rest_closest),
           Keep != Keeping::nothing ? smallest(scan.closest_in_window, scan.rest_closest_in_window) : 0.0F};
 }
@@ -114,6 +122,12 @@ HWY_ATTR SphereSurvey gatherSphere(const PixelRows& window, const float center[3
 {
   return gathered.index != nullptr ? scanSphere<Keeping::points_and_indices>(window, center, squared_radius, gathered)
                                    : scanSphere<Keeping::points>(window, center, squared_radius, gathered);
+}
+
+HWY_ATTR std::size_t gatherUnsurveyed(const PixelRows& window, const float center[3], float squared_radius,
+                                      const GatheredPoints& gathered)
+{
+  return scanSphere<Keeping::unsurveyed>(window, center, squared_radius, gathered).points;
 }
 
 HWY_ATTR float closestSquaredRange(const float* x, const float* y, const float* z, std::size_t count)
@@ -167,6 +181,7 @@ namespace grasp_affordances
 {
 
 HWY_EXPORT(gatherSphere);
+HWY_EXPORT(gatherUnsurveyed);
 HWY_EXPORT(surveySphere);
 HWY_EXPORT(closestSquaredRange);
 HWY_EXPORT(countNearer);
@@ -175,6 +190,12 @@ SphereSurvey gatherSphere(const PixelRows& window, const float center[3], float 
                           const GatheredPoints& gathered)
 {
   return HWY_DYNAMIC_DISPATCH(gatherSphere)(window, center, squared_radius, gathered);
+}
+
+std::size_t gatherUnsurveyed(const PixelRows& window, const float center[3], float squared_radius,
+                             const GatheredPoints& gathered)
+{
+  return HWY_DYNAMIC_DISPATCH(gatherUnsurveyed)(window, center, squared_radius, gathered);
 }
 
 SphereSurvey surveySphere(const PixelRows& window, const float center[3], float squared_radius)

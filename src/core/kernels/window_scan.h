@@ -47,6 +47,11 @@ SphereSurvey surveySphere(const PixelRows& window, const float center[3], float 
 SphereSurvey gatherSphere(const PixelRows& window, const float center[3], float squared_radius,
                           const GatheredPoints& gathered);
 
+/// Copies the points within the sphere, with their indices, as gatherSphere does; surveys nothing.
+/// @return how many
+std::size_t gatherUnsurveyed(const PixelRows& window, const float center[3], float squared_radius,
+                             const GatheredPoints& gathered);
+
 /// The smallest squaredLength(p) of `count` points; infinity for none.
 float closestSquaredRange(const float* x, const float* y, const float* z, std::size_t count);
 

@@ -58,7 +58,9 @@ void Neighborhood::clear(const Eigen::Vector3f& new_center, float new_radius)
 
 void Neighborhood::appendRange(const Cloud& cloud, std::size_t begin, std::size_t end)
 {
-  append({cloud.x.data(), cloud.y.data(), cloud.z.data(), cloud.size(), begin, 1, end - begin, 0}, true);
+  makeRoom(end - begin);
+  size_ += gatherUnsurveyed({cloud.x.data(), cloud.y.data(), cloud.z.data(), cloud.size(), begin, 1, end - begin, 0},
+                            center.data(), radius * radius, {&x_[size_], &y_[size_], &z_[size_], &index_[size_]});
 }
 
 SphereSurvey Neighborhood::appendWindow(const Cloud& cloud, const PixelWindow& window, bool with_index)

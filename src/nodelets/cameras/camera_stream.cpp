@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace grasp_affordances
 {
@@ -48,15 +49,23 @@ sensor_msgs::ImagePtr imageMessage(const DeviceFrame& frame, const ImageLayout& 
 }  // namespace
 
 CameraCalibration::CameraCalibration(const ros::NodeHandle& nh, const std::string& camera, const std::string& url)
-    : camera_(camera), manager_(nh, camera, url)
+    : camera_(camera),
+      manager_(std::make_shared<camera_info_manager::CameraInfoManager>(thread_.nodeHandle(nh), camera, url))
 {
+  thread_.start();
+}
+
+CameraCalibration::~CameraCalibration()
+{
+  thread_.stop();
+  thread_.end(std::move(manager_));
 }
 
 void CameraCalibration::setDevice(const Device& device, Sensor sensor)
 {
   const std::string name = calibrationName(camera_, device);
   if (name != name_) {  // otherwise the manager already has this calibration, and need not read its file again
-    manager_.setCameraName(name);
+    manager_->setCameraName(name);
     name_ = name;
   }
   field_of_view_ = device.fieldOfView(sensor);
@@ -64,8 +73,8 @@ void CameraCalibration::setDevice(const Device& device, Sensor sensor)
 
 sensor_msgs::CameraInfoPtr CameraCalibration::info(const sensor_msgs::Image& image)
 {
-  if (manager_.isCalibrated()) {
-    auto calibrated = boost::make_shared<sensor_msgs::CameraInfo>(manager_.getCameraInfo());
+  if (manager_->isCalibrated()) {
+    auto calibrated = boost::make_shared<sensor_msgs::CameraInfo>(manager_->getCameraInfo());
     if (calibrated->width == image.width && calibrated->height == image.height) {
       calibrated->header = image.header;
       return calibrated;

@@ -2,6 +2,7 @@
 
 #include "nodelets/cameras/device_diagnostics.h"
 #include "nodelets/roscpp/rate_limiter.h"
+#include "nodelets/roscpp/service_thread.h"
 #include "openni2/depth_image.h"
 #include "openni2/device.h"
 #include "openni2/device_clock.h"
@@ -16,6 +17,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace grasp_affordances
@@ -32,6 +34,8 @@ public:
   /// @param url of the calibration file; empty: the default of camera_info_manager
   CameraCalibration(const ros::NodeHandle& nh, const std::string& camera, const std::string& url);
 
+  ~CameraCalibration();
+
   /// Selects the calibration of a device. @param sensor the device's sensor that this camera belongs to
   void setDevice(const Device& device, Sensor sensor);
 
@@ -41,8 +45,9 @@ public:
 private:
   const std::string camera_;
   std::string name_;
-  camera_info_manager::CameraInfoManager manager_;
   FieldOfView field_of_view_;
+  ServiceThread thread_;
+  std::shared_ptr<camera_info_manager::CameraInfoManager> manager_;
 };
 
 /// Publishes one stream of a device on the topics image_raw and camera_info. Not safe to use from several threads.

@@ -47,7 +47,7 @@ void LocalizeService::advertise(const ros::NodeHandle& private_node_handle, cons
 void LocalizeService::close()
 {
   thread_.stop();
-  server_.shutdown();
+  thread_.end(server_);
 }
 
 bool LocalizeService::call(Localize::Request& request, Localize::Response& response)

@@ -51,7 +51,7 @@ void TriggerService::close()
   }
   changed_.notify_all();
   thread_.stop();
-  server_.shutdown();
+  thread_.end(server_);
 }
 
 bool TriggerService::arrives(Clock::time_point arrival)

@@ -3,11 +3,14 @@
 #include "grasp_affordances/LocalizerConfig.h"
 #include "grasp_affordances/parameters.h"
 
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <dynamic_reconfigure/config_tools.h>
-#include <dynamic_reconfigure/server.h>
 #include <ros/console.h>
+#include <ros/master.h>
+#include <ros/publisher.h>
+#include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcValue.h>
-#include <boost/thread/recursive_mutex.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -143,29 +146,75 @@ void assign(const Message& message, Config& config)
   visitParameters(config, Take(message));
 }
 
-/// dynamic_reconfigure's server and the lock that it needs, which outlives it.
+/// Offers what dynamic_reconfigure::Server does. That one sets every parameter by ros::param::set(), which holds a
+/// mutex until the master has answered. Where it logs meanwhile, as when the master cannot be reached, the log of
+/// roscpp 1.15.9 waits for the same mutex, for ever: it asks for a parameter.
 class Reconfiguration::Server
 {
 public:
-  explicit Server(const ros::NodeHandle& node_handle) : server_(mutex_, node_handle) {}
+  /// Takes values over, or replaces them and returns false.
+  using Change = std::function<bool(Message& values)>;
 
-  /// `change` takes values over, or replaces them and returns false. First it is told of those at the start.
-  void start(std::function<bool(Message& values, bool starting)> change)
+  /// The thread must not have been started, and be stopped before this ends.
+  Server(ServiceThread& thread, const ros::NodeHandle& node_handle, Message values, Change change)
+      : thread_(thread),
+        node_handle_(thread.nodeHandle(node_handle)),
+        change_(std::move(change)),
+        config_(LocalizerConfig::__getDefault__())
   {
-    server_.setCallback([change = std::move(change)](LocalizerConfig& config, std::uint32_t level) {
-      Message values;
-      config.__toMessage__(values);
-      if (!change(values, level == kStarting)) {
-        config.__fromMessage__(values);
-      }
-    });
+    constexpr bool kLatched = true;
+    descriptions_ =
+        node_handle_.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, kLatched);
+    descriptions_.publish(LocalizerConfig::__getDescriptionMessage__());
+    updates_ = node_handle_.advertise<Message>("parameter_updates", 1, kLatched);
+    config_.__fromMessage__(values);
+    publish();
+    service_ = node_handle_.advertiseService("set_parameters", &Server::answer, this);
   }
 
-private:
-  static constexpr std::uint32_t kStarting = ~std::uint32_t{0};  // all bits; our parameters have none
+  ~Server() { thread_.end(service_); }
 
-  boost::recursive_mutex mutex_;
-  dynamic_reconfigure::Server<LocalizerConfig> server_;
+private:
+  using Reconfigure = dynamic_reconfigure::Reconfigure;
+
+  bool answer(Reconfigure::Request& request, Reconfigure::Response& response)
+  {
+    LocalizerConfig config = config_;
+    config.__fromMessage__(request.config);
+    config.__clamp__();
+    Message values;
+    config.__toMessage__(values);
+    if (!change_(values)) {
+      config.__fromMessage__(values);
+    }
+    config_ = config;
+    response.config = publish();
+    return true;
+  }
+
+  /// To the parameter server and the topic; returns what.
+  Message publish()
+  {
+    Message message;
+    config_.__toMessage__(message);
+    const std::string name = node_handle_.resolveName(node_handle_.getNamespace());
+    XmlRpc::XmlRpcValue request, response, payload;
+    request[0] = ros::this_node::getName();
+    request[1] = name;
+    request[2] = structOf(message);
+    constexpr bool kWaitForMaster = true;
+    ros::master::execute("setParam", request, response, payload, kWaitForMaster);
+    updates_.publish(message);
+    return message;
+  }
+
+  ServiceThread& thread_;
+  ros::NodeHandle node_handle_;
+  const Change change_;
+  LocalizerConfig config_;
+  ros::Publisher descriptions_;
+  ros::Publisher updates_;
+  ros::ServiceServer service_;
 };
 
 Reconfiguration::Reconfiguration() = default;
@@ -183,10 +232,8 @@ void Reconfiguration::advertise(const ros::NodeHandle& private_node_handle, cons
     const std::lock_guard<std::mutex> lock(mutex_);
     config_ = config;
   }
-  const ros::NodeHandle node_handle(thread_.nodeHandle(private_node_handle), kNamespace);
-  node_handle.setParam(node_handle.getNamespace(), structOf(toReconfigureMessage(config)));
-  server_ = std::make_unique<Server>(node_handle);
-  server_->start([this](Message& values, bool starting) { return change(values, starting); });
+  server_ = std::make_unique<Server>(thread_, ros::NodeHandle(private_node_handle, kNamespace),
+                                     toReconfigureMessage(config), [this](Message& values) { return change(values); });
   thread_.start();
 }
 
@@ -202,12 +249,8 @@ Config Reconfiguration::config() const
   return config_;
 }
 
-bool Reconfiguration::change(Message& values, bool starting)
+bool Reconfiguration::change(Message& values)
 {
-  if (starting) {  // what came from the parameter server may have lost digits on its way
-    values = toReconfigureMessage(config());
-    return false;
-  }
   Config changed = config();
   try {
     assign(values, changed);

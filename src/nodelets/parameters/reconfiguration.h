@@ -52,7 +52,7 @@ public:
 private:
   class Server;
 
-  bool change(dynamic_reconfigure::Config& values, bool starting);
+  bool change(dynamic_reconfigure::Config& values);
 
   std::string logger_;
   mutable std::mutex mutex_;  // guards config_

@@ -38,12 +38,14 @@ void HandleSelection::advertise(ros::NodeHandle& private_node_handle, const std:
   display_ = std::make_unique<HandleDisplay>(
       topic, [this](std::uint32_t id, std::optional<HandleMenu> entry) { act(id, entry); });
 
-  select_service_ = private_node_handle.advertiseService(
+  ros::NodeHandle services(thread_.nodeHandle(private_node_handle));
+  select_service_ = services.advertiseService(
       "select", boost::function<bool(SelectHandle::Request&, SelectHandle::Response&)>(
                     gate_.guarded([this](auto& request, auto& response) { return answerSelect(request, response); })));
-  best_service_ = private_node_handle.advertiseService(
+  best_service_ = services.advertiseService(
       "best", boost::function<bool(BestHandle::Request&, BestHandle::Response&)>(
                   gate_.guarded([this](auto& request, auto& response) { return answerBest(request, response); })));
+  thread_.start();
 }
 
 bool HandleSelection::anybodyListens() const
@@ -55,8 +57,9 @@ bool HandleSelection::anybodyListens() const
 void HandleSelection::close()
 {
   gate_.close();
-  select_service_.shutdown();
-  best_service_.shutdown();
+  thread_.stop();
+  thread_.end(select_service_);
+  thread_.end(best_service_);
   if (display_) {
     display_->close();
   }

@@ -5,6 +5,7 @@
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/handle.h"
 #include "nodelets/roscpp/callback_gate.h"
+#include "nodelets/roscpp/service_thread.h"
 #include "nodelets/selection/hand_pose_choice.h"
 #include "nodelets/selection/handle_display.h"
 
@@ -78,8 +79,8 @@ private:
   ros::ServiceServer best_service_;
   std::unique_ptr<HandleDisplay> display_;
 
-  // Results come from the worker's thread, feedback from the display's and calls from that of the node's callbacks. All
-  // of them read and change the selection and publish it, and must do so in one order. Nothing that is called with it
+  // Results come from the worker's thread, feedback from the display's and calls from that of the services. All of them
+  // read and change the selection and publish it, and must do so in one order. Nothing that is called with it
   // held waits for any of those threads.
   std::mutex mutex_;
   bool any_cloud_ = false;
@@ -92,7 +93,8 @@ private:
   std::optional<std::size_t> hand_pose_;  // index of the chosen one
   bool complained_ = false;               // that the selected handle has none
 
-  CallbackGate gate_;  // of calls
+  CallbackGate gate_;     // of calls
+  ServiceThread thread_;  // last: it stops before the rest goes
 };
 
 }  // namespace grasp_affordances

@@ -15,8 +15,13 @@ def run(command, **options):
     subprocess.run(command, check=True, timeout=250, **options)
 
 
+def before(variable, *paths):
+    """These paths before those that an environment variable has, such as of a ROS in /opt/ros."""
+    return ':'.join([*paths, *filter(None, [os.environ.get(variable)])])
+
+
 def build(cmake, source, folder, prefixes, options, targets):
-    environment = dict(os.environ, CMAKE_PREFIX_PATH=':'.join(prefixes))
+    environment = dict(os.environ, CMAKE_PREFIX_PATH=before('CMAKE_PREFIX_PATH', *prefixes))
     run([cmake, '-S', source, '-B', folder, '-DPYTHON_EXECUTABLE=/usr/bin/python3', *options], env=environment, stdout=subprocess.DEVNULL)
     run([cmake, '--build', folder, '--parallel', '2', '--target', *targets], env=environment, stdout=subprocess.DEVNULL)
 
@@ -40,7 +45,7 @@ def check_node(node, prefixes, scratch):
     port = free_port()
     python = [os.path.join(prefix, 'lib', 'python3', 'dist-packages') for prefix in prefixes]
     environment = dict(os.environ, ROS_IP='127.0.0.1', ROS_MASTER_URI='http://127.0.0.1:%d' % port, ROS_LOG_DIR=scratch,
-                       PYTHONPATH=':'.join(python + [os.path.dirname(HERE)]))
+                       PYTHONPATH=before('PYTHONPATH', *python, os.path.dirname(HERE)))
     master = subprocess.Popen(['roscore', '-p', str(port)], env=environment, stdout=subprocess.DEVNULL)
     try:
         run([os.path.join(HERE, 'plan_grasps_check.py'), node], env=environment)

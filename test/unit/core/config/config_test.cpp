@@ -210,6 +210,7 @@ TEST(ConfigFromYaml, RefusesWithNameValueAndRange)
   EXPECT_EQ(messageOf("hand: {grip: 1}"), "hand/grip: no such parameter (its value: '1')");
   EXPECT_EQ(messageOf("hand: {capture_radius: wide}"), "hand/capture_radius: 'wide' is not a number");
   EXPECT_EQ(messageOf("sampling: {samples: 1.5}"), "sampling/samples: '1.5' is not a whole number");
+  EXPECT_EQ(messageOf("sampling: {seed: -1}"), "sampling/seed: '-1' is not a whole number");
   EXPECT_EQ(messageOf("occlusion: {filter: 3}"), "occlusion/filter: '3' is not true or false");
   EXPECT_EQ(messageOf("preset: best"), "preset: 'best' is none of: localizer, paper");
   EXPECT_EQ(messageOf("[1, 2]"), "the configuration is no YAML map");

@@ -273,7 +273,8 @@ GeneralFit fitByGeneralSolver(const Neighborhood& neighborhood)
     M += l * l.transpose();
     N += lx * lx.transpose() + ly * ly.transpose() + lz * lz.transpose();
   }
-  const Eigen::GeneralizedEigenSolver<Eigen::MatrixX<long double>> solver(M, N);  // compiles faster than of fixed size
+  using AnyMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;  // compiles faster than of fixed size
+  const Eigen::GeneralizedEigenSolver<AnyMatrix> solver(M, N);
   GeneralFit fit{{}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   int best = 0;
   for (int i = 0; i < 10; ++i) {

@@ -115,6 +115,17 @@ TEST_P(Kernel, GathersTheSphereAndNothingElse)
       for (std::size_t i = 0; i < count; ++i) {
         ASSERT_EQ(Eigen::Vector3f(x[i], y[i], z[i]), image.cloud.point(index[i]));
       }
+
+      std::vector<float> x_again(room), y_again(room), z_again(room);
+      std::vector<std::uint32_t> index_again(room);
+      ASSERT_EQ(gatherUnsurveyed(window, center, radius * radius,
+                                 {x_again.data(), y_again.data(), z_again.data(), index_again.data()}),
+                count);
+      index_again.resize(count);
+      ASSERT_EQ(index_again, expected) << columns << " columns, radius " << radius;
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(Eigen::Vector3f(x_again[i], y_again[i], z_again[i]), Eigen::Vector3f(x[i], y[i], z[i]));
+      }
     }
   }
 }

@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+"""Starts and ends in whose course roscpp 1.15.9 waits for itself, unless our nodelets call it in another order.
+
+~repetitions: of the end of a manager.
+"""
+
+import http.client
+import http.server
+import os
+import random
+import signal
+import threading
+import time
+import unittest
+import urllib.parse
+import xmlrpc.client
+
+import rosgraph
+import rospy
+import rostest
+
+from helpers import Nodelets, Process, manager, wait_until
+
+
+class DroppingMaster(http.server.ThreadingHTTPServer):
+    """Hands calls on to the master, but for the first ones that set parameters: those are dropped unanswered. roscpp asks
+    twice before it says so."""
+
+    daemon_threads = True
+
+    def __init__(self, drops):
+        super().__init__(('127.0.0.1', 0), Call)
+        self.drops = drops
+        self._thread = threading.Thread(target=self.serve_forever, daemon=True)
+        self._thread.start()
+
+    def environment(self):
+        return dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:%d' % self.server_address[1])
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.shutdown()
+        self._thread.join()
+        self.server_close()
+
+
+class Call(http.server.BaseHTTPRequestHandler):
+    protocol_version = 'HTTP/1.1'
+
+    def do_POST(self):
+        body = self.rfile.read(int(self.headers['Content-Length']))
+        _, method = xmlrpc.client.loads(body)
+        if method == 'setParam' and self.server.drops > 0:
+            self.server.drops -= 1
+            self.close_connection = True
+            return
+        master = urllib.parse.urlparse(rosgraph.get_master_uri())
+        connection = http.client.HTTPConnection(master.hostname, master.port, timeout=10)
+        connection.request('POST', '/RPC2', body, {'Content-Type': 'text/xml'})
+        answer = connection.getresponse().read()
+        connection.close()
+        self.send_response(200)
+        self.send_header('Content-Type', 'text/xml')
+        self.send_header('Content-Length', str(len(answer)))
+        self.end_headers()
+        self.wfile.write(answer)
+
+    def log_message(self, *_):
+        pass
+
+
+def services():
+    return {name for name, _ in rosgraph.Master(rospy.get_name()).getSystemState()[2]}
+
+
+class RoscppLocks(unittest.TestCase):
+    def test_a_node_starts_although_the_master_drops_what_it_sets(self):
+        """roscpp logs that it could not reach the master."""
+        with DroppingMaster(drops=5) as master:
+            with Process('grasp_affordances', 'localizer_node', environment=master.environment()) as node:
+                wait_until(lambda: '/localizer/best' in services(), 'services')
+                self.assertEqual(master.drops, 0)
+                self.assertEqual(rospy.get_param('localizer/reconfigure/sampling_samples'), 2000)
+                self.assertEqual(node.interrupt(), 0)
+
+    def test_a_manager_ends_that_is_interrupted_while_it_unloads(self):
+        """Its shutdown waits for the unloading, which must not wait for the shutdown."""
+        for repetition in range(rospy.get_param('~repetitions')):
+            random.seed(repetition)
+            with manager() as host:
+                nodelets = Nodelets()
+                nodelets.load('/localizer', 'LocalizerNodelet')
+
+                def unload():
+                    try:
+                        nodelets.unload('/localizer')
+                    except (rospy.ServiceException, rospy.exceptions.ROSException):
+                        pass  # the manager has ended before it answered
+
+                unloading = threading.Thread(target=unload, daemon=True)
+                host.signal(signal.SIGINT)  # noticed within 0.1 s
+                time.sleep(random.uniform(0.0, 0.12))
+                unloading.start()
+                self.assertIn(host.wait(20), (0, -signal.SIGINT), host.output())
+                unloading.join(20)
+                self.assertFalse(unloading.is_alive())
+            wait_until(lambda: not any(name.startswith('/manager/') for name in services()), 'end')
+
+
+if __name__ == '__main__':
+    rospy.init_node('roscpp_locks_test')
+    rostest.rosrun('grasp_affordances', 'roscpp_locks', RoscppLocks)
