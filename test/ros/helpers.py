@@ -1,13 +1,17 @@
-"""What the rostests share: processes, simulated scenes, clouds made by hand, and what arrives on topics."""
+"""What the rostests share: processes, simulated scenes, clouds made by hand, what arrives on topics, and measurements that
+need a free machine."""
 
 import atexit
 import collections
+import contextlib
+import functools
 import io
 import os
 import shutil
 import signal
 import struct
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -17,6 +21,9 @@ import roslib.packages
 import rospy
 from nodelet.srv import NodeletLoad, NodeletUnload
 from sensor_msgs.msg import PointCloud2, PointField
+
+sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..', 'scripts'))
+import free_machine  # noqa: E402
 
 # Of these speaks the output of a process that did not end well, whatever its exit code.
 ABNORMAL_ENDS = ('boost', 'mutex', 'terminate', 'Assertion', 'rror:')
@@ -29,6 +36,8 @@ FREED_MEMORY_IS_KEPT = 'ASAN_OPTIONS' in os.environ
 
 # How often a byte that is used counts in the size of a process: ThreadSanitizer has four bytes of its own for each.
 MEMORY_FACTOR = 5 if 'TSAN_OPTIONS' in os.environ else 1
+
+ATTEMPTS = 3  # of a test that measures times
 
 _scenes = None
 
@@ -64,6 +73,59 @@ def recordings():
         return folder
     folder = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..', '..', 'shared', 'data')
     return folder if os.path.isdir(folder) else None
+
+
+def skip(test, reason):
+    """Ends a test that says nothing, and tells ctest so."""
+    text = 'SKIPPED: %s: %s\n' % (test.id(), reason)
+    if 'GRASP_AFFORDANCES_SKIPPED' in os.environ:
+        with open(os.environ['GRASP_AFFORDANCES_SKIPPED'], 'a') as file:
+            file.write(text)
+    print(text, end='')
+    test.skipTest(reason)
+
+
+class NotJudged(Exception):
+    """A measurement on a machine that was not free."""
+
+
+class Measurement:
+    """What a test measures; `machine`: a watch that has run since the test began."""
+
+    def __init__(self, machine):
+        self._machine = machine
+
+    @contextlib.contextmanager
+    def judged(self):
+        """In this block stand the assertions that hold on a free machine only."""
+        try:
+            yield
+        except AssertionError as error:
+            reason = self._machine.reason_not_free()
+            if not reason:
+                raise
+            raise NotJudged('%s; %s' % (reason, error)) from error
+
+
+def measured(method):
+    """A test method that has a Measurement as argument. Where that is not judged the test is run again, and at last
+    skipped. Assertions outside of judged() hold whatever else runs."""
+    @functools.wraps(method)
+    def run(test):
+        for attempt in range(ATTEMPTS):
+            if attempt > 0:
+                test.tearDown()
+                test.doCleanups()
+                test.setUp()
+            try:
+                with free_machine.Watch() as machine:
+                    method(test, Measurement(machine))
+                return
+            except NotJudged as error:
+                reason = str(error)
+                rospy.logwarn('attempt %d is not judged: %s', attempt + 1, reason)
+        skip(test, reason)
+    return run
 
 
 class Process:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Start, refusal to start, overload and end of the localizer, as a plain node and as a nodelet."""
+"""Start, refusal to start and end of the localizer, as a plain node and as a nodelet."""
 
 import os
 import signal
@@ -156,24 +156,6 @@ class Lifecycle(unittest.TestCase):
     def test_eager_node_subscribes_without_a_listener(self):
         with localizer('_lazy:=false'):
             wait_until(lambda: '/points' in str(rosgraph.Master(rospy.get_name()).getSystemState()[1]), 'subscription')
-
-    def test_overloaded_node_works_on_the_newest_cloud_and_counts_the_others(self):
-        rate = 20.0
-        with publisher(scene('table'), rate), localizer('_sampling/samples:=20000', '_threads:=1'):
-            listener = Listener('localizer/statistics', LocalizationStatistics)
-            last = listener.wait(lambda m: m.clouds_processed == 5, timeout=40)
-            arrivals = listener.arrivals()
-            listener.close()
-        self.assertGreater(last.clouds_dropped, 0)
-        handled = last.clouds_processed + last.clouds_dropped + last.clouds_rejected
-        self.assertIn(last.clouds_received - handled, (0, 1))
-        for (earlier, _), (message, arrival) in zip(arrivals, arrivals[1:]):
-            self.assertGreater(message.header.stamp, earlier.header.stamp)
-            # It came at most one period, and the way through the network, before its work began.
-            age = (arrival - message.header.stamp).to_sec()
-            self.assertLess(age, message.milliseconds_total / 1e3 + 1 / rate + 0.3)
-            # From its arrival here, later than its stamp, to a publication earlier than its arrival at this test.
-            self.assertLess(message.milliseconds_latency, age * 1e3)
 
 
 if __name__ == '__main__':

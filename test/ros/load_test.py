@@ -17,7 +17,7 @@ from std_msgs.msg import Header
 
 from grasp_affordances.msg import LocalizationStatistics
 from helpers import (ABNORMAL_ENDS, FREED_MEMORY_IS_KEPT, MEMORY_FACTOR, TIME_FACTOR, Listener, Nodelets, Process, Program,
-                     manager, published, usage, wait_until)
+                     manager, measured, published, publisher, scene, usage, wait_until)
 from raw_peers import RawSubscriber
 
 OUTPUTS = ('shells', 'handles', 'hand_poses', 'markers', 'statistics', 'selected', 'selected_pose',
@@ -112,7 +112,7 @@ class Load(unittest.TestCase):
             if rospy.has_param(name):
                 rospy.delete_param(name)
 
-    def measure(self, process, node, megabytes, period=None):
+    def measure(self, measurement, process, node, megabytes, period=None):
         """While the node is under load: it answers to the end, with the newest clouds, and its memory is flat.
         `period`, s: of clouds that come from the same process, where their way takes no time; of others the ages say
         nothing."""
@@ -133,14 +133,16 @@ class Load(unittest.TestCase):
             answers.wait(lambda m: m.header.stamp > end, timeout=20)
             read = list(subscribers.read)
         answers.close()
-        self.check_newest_only(arrivals, period)
+        self.check_newest_only(arrivals)
         rospy.loginfo('%d answers, %d clouds received, memory %.1f to %.1f MB, %s markers read', len(arrivals),
                       arrivals[-1][0].clouds_received - arrivals[0][0].clouds_received, min(memory), max(memory), read)
         if not FREED_MEMORY_IS_KEPT:
             self.assertLess(max(memory) - min(memory), megabytes * MEMORY_FACTOR)
-        self.assertGreater(min(read), 0.5 * len(arrivals))
+        with measurement.judged():
+            self.check_latency(arrivals, period)
+            self.assertGreater(min(read), 0.5 * len(arrivals))
 
-    def check_newest_only(self, arrivals, period):
+    def check_newest_only(self, arrivals):
         messages = [message for message, _ in arrivals]
         first, last = messages[0], messages[-1]
         self.assertGreater(last.clouds_dropped, first.clouds_dropped)
@@ -148,8 +150,11 @@ class Load(unittest.TestCase):
             handled = message.clouds_processed + message.clouds_dropped + message.clouds_rejected
             self.assertIn(message.clouds_received - handled, (0, 1))
             self.assertEqual(message.clouds_rejected, 0)
-        for (earlier, _), (message, arrival) in zip(arrivals, arrivals[1:]):
+        for earlier, message in zip(messages, messages[1:]):
             self.assertGreater(message.header.stamp, earlier.header.stamp)
+
+    def check_latency(self, arrivals, period):
+        for (earlier, _), (message, arrival) in zip(arrivals, arrivals[1:]):
             # A cloud waits for the localization before it at most, or is replaced by the one that comes a period later.
             work = (earlier.milliseconds_total + message.milliseconds_total) / 1e3
             self.assertLess(message.milliseconds_latency / 1e3, work + SLACK)
@@ -161,7 +166,8 @@ class Load(unittest.TestCase):
         for sign in ABNORMAL_ENDS:
             self.assertNotIn(sign, process.output())
 
-    def test_camera_of_100_Hz_and_a_slow_localizer_in_one_manager(self):
+    @measured
+    def test_camera_of_100_Hz_and_a_slow_localizer_in_one_manager(self, measurement):
         rospy.set_param('camera/camera', {'rate': 100.0, 'motion': 'orbit', 'frames_ahead': 6})
         with manager() as host:
             nodelets = Nodelets()
@@ -171,17 +177,40 @@ class Load(unittest.TestCase):
             frames.wait(timeout=60)  # they are rendered
             frames.close()
             with BusyCores():
-                self.measure(host, '/manager', 40, period=1 / 100)
+                self.measure(measurement, host, '/manager', 40, period=1 / 100)
                 self.check_clean_end(host)
 
-    def test_clouds_of_1280x1024(self):
+    @measured
+    def test_clouds_of_1280x1024(self, measurement):
         with BigClouds(rate=30) as clouds, Process('grasp_affordances', 'localizer_node') as node:
             wait_until(lambda: '/localizer/statistics' in str(rospy.get_published_topics()), 'start')
             megabytes = len(clouds.message.data) / 1e6
             with BusyCores():
                 # Clouds that are received, wait or are worked on come and go.
-                self.measure(node, '/localizer', 4 * megabytes)
+                self.measure(measurement, node, '/localizer', 4 * megabytes)
                 self.check_clean_end(node)
+
+    @measured
+    def test_overloaded_node_works_on_the_newest_cloud_and_counts_the_others(self, measurement):
+        rate = 20.0
+        rospy.delete_param('localizer')
+        with publisher(scene('table'), rate), \
+                Process('grasp_affordances', 'localizer_node', '_sampling/samples:=20000', '_threads:=1'):
+            listener = Listener('localizer/statistics', LocalizationStatistics)
+            last = listener.wait(lambda m: m.clouds_processed == 5, timeout=40)
+            arrivals = listener.arrivals()
+            listener.close()
+        self.assertGreater(last.clouds_dropped, 0)
+        handled = last.clouds_processed + last.clouds_dropped + last.clouds_rejected
+        self.assertIn(last.clouds_received - handled, (0, 1))
+        for (earlier, _), (message, arrival) in zip(arrivals, arrivals[1:]):
+            self.assertGreater(message.header.stamp, earlier.header.stamp)
+            age = (arrival - message.header.stamp).to_sec()
+            # From its arrival here, later than its stamp, to a publication earlier than its arrival at this test.
+            self.assertLess(message.milliseconds_latency, age * 1e3)
+            with measurement.judged():
+                # It came at most one period, and the way through the network, before its work began.
+                self.assertLess(age, message.milliseconds_total / 1e3 + 1 / rate + 0.3)
 
 
 if __name__ == '__main__':

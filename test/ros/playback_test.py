@@ -17,7 +17,8 @@ import rostest
 from visualization_msgs.msg import Marker, MarkerArray
 
 from grasp_affordances.msg import CylindricalShellArray, HandleArray, LocalizationStatistics
-from helpers import FREED_MEMORY_IS_KEPT, MEMORY_FACTOR, TIME_FACTOR, Launch, Listener, recordings, serialized, wait_until
+from helpers import (FREED_MEMORY_IS_KEPT, MEMORY_FACTOR, TIME_FACTOR, Launch, Listener, recordings, serialized, skip,
+                     wait_until)
 
 LOOPS = 5
 
@@ -56,8 +57,7 @@ class Playback(unittest.TestCase):
     def test_the_can_is_found(self):
         folder = recordings()
         if folder is None:
-            print('SKIPPED: no recordings (set GRASP_AFFORDANCES_DATA)')
-            self.skipTest('no recordings')
+            skip(self, 'no recordings (set GRASP_AFFORDANCES_DATA)')
         listener = Listener('localizer/shells', CylindricalShellArray)
         handles_listener = Listener('localizer/handles', HandleArray)
         # Each shell for itself is judged where samples are drawn evenly: importance sampling adds some that lean.

@@ -15,7 +15,8 @@ import tf2_ros
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 
 from grasp_affordances.msg import CylindricalShellArray
-from helpers import ABNORMAL_ENDS, Listener, Process, coordinates, manager, publisher, rotated, scene, wait_until
+from helpers import (ABNORMAL_ENDS, TIME_FACTOR, Listener, Process, coordinates, manager, measured, publisher,
+                     rotated, scene, wait_until)
 
 NODELET = 'grasp_affordances/SimulatedCameraNodelet'
 
@@ -167,7 +168,8 @@ class SimulatedCamera(unittest.TestCase):
             self.assertAlmostEqual(height, 0, delta=0.006)
         return origin
 
-    def test_renders_only_while_somebody_listens(self):
+    @measured
+    def test_renders_only_while_somebody_listens(self, measurement):
         rate = 10  # Hz
         with camera('lazy', '_scene:=table', '_seed:=1', '_rate:=%d' % rate):
             wait_until(lambda: advertised('/lazy/depth/points'), 'advertisement')
@@ -193,7 +195,8 @@ class SimulatedCamera(unittest.TestCase):
         # noticed: on a busy machine those of more than a second.
         pause = (again.header.stamp - last.header.stamp).to_sec()
         self.assertGreater(pause, 4.5)
-        self.assertLess(again.header.seq - last.header.seq, rate * pause / 2)
+        with measurement.judged():
+            self.assertLess(again.header.seq - last.header.seq, rate * pause / 2)
 
     def test_localizer_in_the_same_manager_finds_shells(self):
         shells = Listener('localizer/shells', CylindricalShellArray)
@@ -217,18 +220,23 @@ class SimulatedCamera(unittest.TestCase):
             self.assertIn(' table', process.output())
         self.assertFalse(advertised('/refused/depth/points'))
 
-    def test_unloads_while_it_renders_ahead(self):
+    @measured
+    def test_unloads_while_it_renders_ahead(self, measurement):
         with manager() as host, loader('_frames_ahead:=1000') as load:
             wait_until(lambda: advertised('/loaded/points'), 'advertisement')
             clouds = Listener('loaded/points', PointCloud2)
             time.sleep(2)  # for a frame or two dozens; a bond forms in the first second
             self.assertEqual(load.interrupt(), 0, load.output())
-            wait_until(lambda: not advertised('/loaded/points'), 'unloading', timeout=2)
+            start = time.monotonic()
+            wait_until(lambda: not advertised('/loaded/points'), 'unloading')
+            with measurement.judged():
+                self.assertLess(time.monotonic() - start, 2 * TIME_FACTOR)
             clouds.close()
             self.assertEqual(clouds.messages(), [])
             self.assertEqual(host.interrupt(), 0, host.output())
 
-    def test_unloads_in_the_middle_of_a_frame(self):
+    @measured
+    def test_unloads_in_the_middle_of_a_frame(self, measurement):
         with manager() as host:
             for _ in range(2):
                 with loader('_rate:=120') as load:  # faster than it can render: there is always a frame under work
@@ -238,7 +246,8 @@ class SimulatedCamera(unittest.TestCase):
                     start = time.monotonic()
                     self.assertEqual(load.interrupt(), 0, load.output())
                     wait_until(lambda: not advertised('/loaded/points'), 'unloading')
-                    self.assertLess(time.monotonic() - start, 2)
+                    with measurement.judged():
+                        self.assertLess(time.monotonic() - start, 2)
                     clouds.close()
                 stamps = [cloud.header.stamp for cloud in clouds.messages()]
                 self.assertEqual(stamps, sorted(set(stamps)))
