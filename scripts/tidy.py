@@ -16,25 +16,34 @@ import sys
 TOGETHER = 8
 OURS = r"/(include/grasp_affordances|src|test)/([a-z0-9_]+/)*[a-z0-9_]+\.(h|cpp)$"
 # Precompiled headers are GCC's; clang cannot read them.
+UNITY = re.compile(r"/Unity/unity_\d+_cxx\.cxx$")
 NOT_FOR_CLANG = re.compile(r" (-Winvalid-pch|-include \S*cmake_pch\S*)")
+
+
+def sources_of(unity):
+    """The sources that CMake has compiled as one."""
+    return re.findall(r'^#include "(.*)"$', pathlib.Path(unity).read_text(), re.MULTILINE)
 
 
 def read_groups(build, wanted):
     """{(folder, compiler options): sources}. Of a source that is compiled several times the first is taken."""
     groups, seen = {}, set()
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        file = entry["file"]
-        if file in seen or file.startswith(f"{build}/") or (wanted and file not in wanted):
+        compiled = entry["file"]
+        files = sources_of(compiled) if UNITY.search(compiled) else [compiled]
+        files = [file for file in files
+                 if file not in seen and not file.startswith(f"{build}/") and (not wanted or file in wanted)]
+        if not files:
             continue
-        seen.add(file)
+        seen.update(files)
         command = shlex.split(NOT_FOR_CLANG.sub("", entry["command"]))
         if "ccache" in command[0]:
             command.pop(0)
         output = command.index("-o")
         options = command[1:output] + command[output + 2:]
         options.remove("-c")
-        options.remove(file)
-        groups.setdefault((entry["directory"], tuple(options)), []).append(file)
+        options.remove(compiled)
+        groups.setdefault((entry["directory"], tuple(options)), []).extend(files)
     if wanted - seen or not seen:
         sys.exit(f"not in {build}/compile_commands.json: {', '.join(sorted(wanted - seen)) or 'any source'}")
     return groups
