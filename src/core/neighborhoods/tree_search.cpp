@@ -233,8 +233,8 @@ void TreeSearch::nearest(const Eigen::Vector3f& center, std::size_t k, Neighborh
     }
     node = nearer;
   }
-  constexpr double kRounding = 1.0 + 1e-6;
-  const double radius = kRounding * std::sqrt(boxOf(node).squaredFarthestDistance(center));
+  constexpr double kRounding = 1.0 + 1e-6, kLargest = std::numeric_limits<float>::max();
+  const double radius = std::min(kLargest, kRounding * std::sqrt(boxOf(node).squaredFarthestDistance(center)));
   withinRadius(center, static_cast<float>(radius), result);
   if (result.size() < k) {  // squares underflow, or overflow
     result.clear(center, std::numeric_limits<float>::infinity());

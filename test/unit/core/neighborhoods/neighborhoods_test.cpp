@@ -298,6 +298,9 @@ TEST(NeighborhoodSearch, FindsPointsWhoseDistancesOverflow)
   Neighborhood found;
   makeTreeSearch(cloud)->nearest(cloud.point(0), 12, found);
   EXPECT_EQ(found.size(), 12U);
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  makeTreeSearch(cloud)->nearest({kLargest, -kLargest, kLargest}, 12, found);
+  EXPECT_EQ(found.size(), 12U);
 }
 
 TEST(NeighborhoodSearch, FindsNeighborsOfAnyPlace)
