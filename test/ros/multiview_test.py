@@ -179,7 +179,7 @@ class Multiview(unittest.TestCase):
                 time.sleep(0.3)
             self.assertGreaterEqual(len(node.statistics.messages()), 6)
 
-    def test_two_cameras_of_one_frame_are_refused(self):
+    def test_two_cameras_of_one_frame_are_named(self):
         with MultiCamera(2, '_target_frame:=room') as node:
             self.connect(2)
             stamp = rospy.Time.now()
@@ -189,7 +189,6 @@ class Multiview(unittest.TestCase):
                 cloud.header.stamp, cloud.header.frame_id = stamp, 'camera_1'
                 points.publish(cloud)
             wait_until(lambda: "/points_1 and /points_2 both have the frame 'camera_1'" in node.output(), 'complaint')
-            self.assertEqual(node.statistics.messages(), [])
 
     def test_a_silent_camera_is_named(self):
         with MultiCamera(3, '_target_frame:=room') as node:

@@ -347,16 +347,16 @@ class Tf(unittest.TestCase):
         with Localizer('localizer', '_target_frame:=map', '_transform_timeout:=0.2') as localizer:
             self.connect()
             # First a run, then time goes back: the transforms do first, then the clouds.
-            first = self.first_centroid(localizer, start, 0, 0.5)
-            self.assertAlmostEqual(self.first_centroid(localizer, start, 7, 0.4) - first, 7, delta=1e-6)
+            first = self.first_centroid(localizer, start, 0, 1.5)
+            self.assertAlmostEqual(self.first_centroid(localizer, start, 7, 0.8) - first, 7, delta=1e-6)
             # The clouds go back first: what is known is of the run before.
-            self.publish(start + rospy.Duration(0.3))
+            self.publish(start + rospy.Duration(0.1))
             wait_until(lambda: 'want of a transform' in localizer.output(), 'complaint')
-            self.assertAlmostEqual(self.first_centroid(localizer, start, 3, 0.35) - first, 3, delta=1e-6)
+            self.assertAlmostEqual(self.first_centroid(localizer, start, 3, 0.15) - first, 3, delta=1e-6)
 
     def first_centroid(self, localizer, start, x, seconds):
-        """Of a shell in the frame map, along x; its origin is at x in the frame room, from the start for a second."""
-        for t in (0.0, 1.0):
+        """Of a shell in the frame map, along x; its origin is at x in the frame room, from the start for two seconds."""
+        for t in (0.0, 2.0):
             self.moving.publish([transform('map', 'room', (x, 0, 0), stamp=start + rospy.Duration(t))])
         time.sleep(0.1)  # until they have arrived: nothing tells
         stamp = self.publish(start + rospy.Duration(seconds))

@@ -142,15 +142,16 @@ void SynchronizedClouds::complainOfSilence()
 }
 
 /// Two sensors cannot be in one place. Clouds that were brought into a common frame before may share it.
-void SynchronizedClouds::refuseSharedFrames(const Clouds& messages) const
+void SynchronizedClouds::complainOfSharedFrames(const Clouds& messages)
 {
   for (std::size_t i = 1; i < views_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const std::string& frame = messages[i]->header.frame_id;
       if (frame == messages[j]->header.frame_id && isInSensorFrame(views_[i].cloud) &&
           isInSensorFrame(views_[j].cloud)) {
-        throw CloudError(views_[j].points_topic + " and " + views_[i].points_topic + " both have the frame '" + frame +
-                         "': each camera needs an optical frame of its own");
+        ROS_ERROR_STREAM_NAMED(name_, views_[j].points_topic
+                                          << " and " << views_[i].points_topic << " both have the frame '" << frame
+                                          << "': handles are wrong unless each camera has an optical frame of its own");
       }
     }
   }
@@ -171,7 +172,9 @@ CloudInput::Gathered SynchronizedClouds::gather(const Clouds& messages)
     result.clouds.push_back(&view.cloud);
     result.header.stamp = std::max(result.header.stamp, messages[i]->header.stamp);
   }
-  refuseSharedFrames(messages);
+  if (shared_frames_.due()) {
+    complainOfSharedFrames(messages);
+  }
   return result;
 }
 

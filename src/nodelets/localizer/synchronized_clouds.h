@@ -8,6 +8,7 @@
 #include "nodelets/roscpp/cloud_clock.h"
 #include "nodelets/roscpp/cloud_synchronizer.h"
 #include "nodelets/roscpp/ros_time.h"
+#include "nodelets/roscpp/throttle.h"
 
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
@@ -58,7 +59,7 @@ private:
   void forgetTimes();
   ros::Time timeOf(std::size_t view, const ros::Time& stamp);
   void complainOfSilence();
-  void refuseSharedFrames(const Clouds& messages) const;
+  void complainOfSharedFrames(const Clouds& messages);
 
   const std::string name_;
   const std::string target_frame_;
@@ -72,6 +73,8 @@ private:
   CloudSynchronizer synchronizer_;
   bool any_set_ = false;     // since the timer's last call
   bool by_arrival_ = false;  // are the clouds put together
+
+  Throttle shared_frames_;  // of the worker's thread
 
   CallbackGate gate_;  // of clouds
 };
