@@ -1,9 +1,11 @@
 """Virtual OpenNI2 devices for the rostests: their list, programs that find them, and what those say of them."""
 
+import glob
 import os
 import shutil
 import subprocess
 import tempfile
+import xml.etree.ElementTree
 
 import numpy
 import roslib.packages
@@ -17,6 +19,17 @@ from helpers import Launch, Listener, Process, executable
 def openni2_is_built():
     """Whether the build has the driver: it is left out where OpenNI2 is not found."""
     return bool(roslib.packages.find_node('grasp_affordances', 'xtion_node'))
+
+
+def depth_image_proc_loads():
+    """Debian 11 installs its library where pluginlib does not look for it, as scripts/demo has it."""
+    plugins = subprocess.run(['rospack', 'plugins', '--attrib=plugin', 'nodelet'], check=True, stdout=subprocess.PIPE,
+                             universal_newlines=True).stdout
+    file = dict(line.split(' ', 1) for line in plugins.splitlines())['depth_image_proc']
+    library = xml.etree.ElementTree.parse(file).getroot().get('path')
+    prefix = file.split('/share/')[0]
+    places = (prefix + '/lib/', '/usr/lib/*/ros/')
+    return '/' not in library or any(glob.glob(place + os.path.basename(library) + '.so') for place in places)
 
 
 def openni2_path():

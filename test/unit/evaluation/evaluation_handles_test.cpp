@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace grasp_affordances::test
@@ -83,7 +84,7 @@ Evaluation makeEvaluation()
   return evaluation;
 }
 
-const HandlesPerAffordance& ofClass(const HandleScore& score, const std::string& key)
+const HandlesPerAffordance& ofClass(const HandleScore& score, std::string_view key)
 {
   const auto found = std::find_if(kVisibilityClasses.begin(), kVisibilityClasses.end(),
                                   [&](const VisibilityClass& visibility) { return visibility.key == key; });
