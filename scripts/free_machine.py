@@ -14,8 +14,8 @@ import time
 
 SKIPPED = 77       # exit status of a test that says nothing
 PERIOD = 1.0       # s, between two looks at the machine
-MEAN_LIMIT = 0.15  # processors that others may take on average where a machine is called free
-PEAK_LIMIT = 0.5   # processors that others may take in any period
+MEAN_LIMIT = 0.1   # processors that others may take on average where a machine is called free
+PEAK_LIMIT = 0.3   # processors that others may take in any period
 
 _TICKS = os.sysconf('SC_CLK_TCK')
 _RUNNERS = ('ctest', 'rostest')  # of tests: what they start belongs to us
