@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace grasp_affordances
 {
@@ -89,11 +90,9 @@ void TreeSearch::listPoints(const Cloud& cloud, ThreadTeam* team)
     }
     first[block + 1] = count;
   });
-  for (std::size_t block = 0; block < kBlocks; ++block) {
-    first[block + 1] += first[block];
-  }
-  points_.resize(first[kBlocks]);
-  index_.resize(first[kBlocks]);
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  points_.resize(first.back());
+  index_.resize(first.back());
   share(kBlocks, team, [&](std::size_t block) {
     std::size_t place = first[block];
     for (std::size_t i = blockBegin(block); i < blockBegin(block + 1); ++i) {
