@@ -223,8 +223,8 @@ std::optional<Eigen::Vector3f> SensorPose::sensorOrigin() const
 
 pcl::PCLPointCloud2 readPcd(const std::string& path, SensorPose* viewpoint)
 {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
+  std::error_code unknown;
+  const auto status = std::filesystem::status(path, unknown);
   if (std::filesystem::is_directory(status)) {
     throw CloudError("is a folder");
   }

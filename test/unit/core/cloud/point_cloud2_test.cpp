@@ -208,9 +208,10 @@ TYPED_TEST(PointCloud2Test, toleratesAWrongRowStepWhereTheDataIsExact)
       message.row_step = step;
       Cloud cloud;
       cloudFromPointCloud2(message, cloud);
-      ASSERT_EQ(cloud.size(), std::size_t{3} * height);
       EXPECT_EQ(cloud.height, height);
-      for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const std::size_t points = std::size_t{3} * height;
+      ASSERT_EQ(cloud.size(), points);
+      for (std::size_t i = 0; i < points; ++i) {
         EXPECT_EQ(cloud.point(i), Eigen::Vector3f(1.0F + i, 10.0F + i, 100.0F + i)) << "point " << i;
       }
       message.data.push_back(0);
