@@ -232,7 +232,7 @@ TEST(UsableCloud, LeavesOutOneBadPointOfARangeImage)
 TEST(UsableCloud, LosesNoHandleToBadPoints)
 {
   const Cloud clean = table();
-  Cloud spoiled = clean, expected = clean;
+  Cloud spoiled = clean;
   spoilDepths(spoiled, 320);
   UsableCloud usable;
   usable.update(spoiled);
