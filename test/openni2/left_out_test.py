@@ -63,7 +63,7 @@ def main():
         os.chmod(pkg_config, 0o755)
         configure = [arguments.cmake, '-S', arguments.source, '-B', build, '-DCATKIN_ENABLE_TESTING=ON',
                      '-DPYTHON_EXECUTABLE=/usr/bin/python3', '-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON',
-                     '-DCMAKE_UNITY_BUILD=OFF']
+                     '-DCMAKE_UNITY_BUILD=OFF']  # the names of the sources are looked at
 
         # Not asked for; then asked for and not found.
         check_build(arguments.cmake, build, run(configure + ['-DGRASP_AFFORDANCES_OPENNI2=OFF']))
