@@ -175,7 +175,7 @@ class Multiview(unittest.TestCase):
             stamp = rospy.Time.now()
             end = time.monotonic() + 20 * TIME_FACTOR
             while len(node.statistics.messages()) < 6 and time.monotonic() < end:
-                self.publish(range(2), stamp)
+                self.publish(range(2), stamp, (0.0, 5.0))
                 time.sleep(0.3)
             self.assertGreaterEqual(len(node.statistics.messages()), 6)
 
