@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -68,6 +69,15 @@ inline Cloud unorganized(Cloud cloud)
   cloud.height = 1;
   cloud.intrinsics.reset();
   return cloud;
+}
+
+inline std::size_t measuredPoints(const Cloud& cloud)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    count += cloud.measured(i) ? 1 : 0;
+  }
+  return count;
 }
 
 /// All points of a cloud within a sphere, found by looking at each point.
