@@ -8,6 +8,8 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace grasp_affordances::test
 {
@@ -76,13 +78,13 @@ const std::vector<FrameVariant>& frameVariants()
   return variants;
 }
 
-const FrameVariant& frameVariant(const std::string& name)
+const FrameVariant& frameVariant(std::string_view name)
 {
   const auto& variants = frameVariants();
   const auto found =
       std::find_if(variants.begin(), variants.end(), [&](const FrameVariant& variant) { return variant.name == name; });
   if (found == variants.end()) {
-    throw std::out_of_range("no frame variant is called " + name);
+    throw std::out_of_range("no frame variant is called " + std::string(name));
   }
   return *found;
 }

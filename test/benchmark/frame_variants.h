@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace grasp_affordances::test
@@ -24,7 +25,7 @@ struct FrameVariant
 const std::vector<FrameVariant>& frameVariants();
 
 /// @throw std::out_of_range for a name that is not among them.
-const FrameVariant& frameVariant(const std::string& name);
+const FrameVariant& frameVariant(std::string_view name);
 
 /// Processes the cloud, which is kept, that way; reading and conversion to PCL's own type are done beforehand.
 std::function<Localization()> frameRun(const FrameVariant& variant, const Cloud& cloud);

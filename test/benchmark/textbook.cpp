@@ -328,7 +328,7 @@ std::optional<Curvature> Frame::estimateAxis(std::mt19937& random)
     return quadric ? medianCurvature(*quadric, points_, config_.estimation.curvature_points, random) : std::nullopt;
   }
   if (config_.estimation.estimator == Estimator::pca) {
-    Eigen::Matrix3d covariance;  // PCL up to 1.11 loses most digits of it in single precision
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // PCL up to 1.11 loses most digits of it in single precision
     Eigen::Vector4d centroid;
     pcl::computeMeanAndCovarianceMatrix(*cloud_, indices_, covariance, centroid);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
