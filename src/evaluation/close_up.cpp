@@ -1,13 +1,13 @@
 #include "evaluation/close_up.h"
 
-#include "core/cloud/range_image.h"
+#include "core/cloud/usable_cloud.h"
 #include "core/result/axis_frame.h"
 #include "simulation/ground_truth.h"
 
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <string>
+#include <optional>
 
 namespace grasp_affordances
 {
@@ -54,8 +54,9 @@ std::vector<Color> labelColors(const std::vector<std::uint32_t>& labels, std::ui
 
 ColoredCloud closeUp(const Cloud& cloud, const std::vector<Color>& colors, const Eigen::Vector3d& center, double radius)
 {
-  std::string warning;
-  const auto image = RangeImage::create(cloud, warning);
+  UsableCloud usable;
+  usable.update(cloud);
+  const std::optional<RangeImage>& image = usable.image();
   if (!image) {
     std::vector<ColoredPoint> points;
     for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -1,10 +1,9 @@
 #include "rendering/picture_camera.h"
 
-#include "core/cloud/range_image.h"
+#include "core/cloud/usable_cloud.h"
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace grasp_affordances
@@ -99,13 +98,13 @@ std::optional<Eigen::Vector2d> PictureCamera::project(const Eigen::Vector3d& p) 
 
 PictureCamera pictureCamera(const Cloud& cloud)
 {
-  std::string warning;
-  const auto image = RangeImage::create(cloud, warning);
-  if (!image) {
+  UsableCloud usable;
+  usable.update(cloud);
+  if (!usable.image()) {
     return virtualCamera(cloud);
   }
   PictureCamera camera;
-  camera.intrinsics = image->intrinsics();
+  camera.intrinsics = usable.image()->intrinsics();
   camera.width = cloud.width;
   camera.height = cloud.height;
   camera.is_sensor = true;

@@ -5,6 +5,7 @@ import copy
 import json
 import math
 import os
+import struct
 import subprocess
 import tempfile
 import threading
@@ -187,6 +188,9 @@ class Multiview(unittest.TestCase):
                 cloud = copy.copy(cloud)
                 cloud.header = copy.copy(cloud.header)
                 cloud.header.stamp, cloud.header.frame_id = stamp, 'camera_1'
+                data = bytearray(cloud.data)
+                struct.pack_into('<fff', data, 0, 0.0, 0.0, -1.0)  # one bad point: still in its frame
+                cloud.data = bytes(data)
                 points.publish(cloud)
             wait_until(lambda: "/points_1 and /points_2 both have the frame 'camera_1'" in node.output(), 'complaint')
 

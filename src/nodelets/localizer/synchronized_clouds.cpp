@@ -1,6 +1,6 @@
 #include "nodelets/localizer/synchronized_clouds.h"
 
-#include "core/cloud/range_image.h"
+#include "core/cloud/usable_cloud.h"
 #include "grasp_affordances/point_cloud2.h"
 #include "nodelets/localizer/input_topic.h"
 #include "nodelets/localizer/silence.h"
@@ -19,8 +19,9 @@ namespace
 /// Whether a cloud is in the optical frame of the sensor that measured it.
 bool isInSensorFrame(const Cloud& cloud)
 {
-  std::string warning;
-  return RangeImage::create(cloud, warning).has_value();
+  UsableCloud usable;
+  usable.update(cloud);
+  return usable.image().has_value();
 }
 
 }  // namespace

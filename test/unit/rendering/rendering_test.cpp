@@ -109,6 +109,16 @@ TEST_F(RenderingTest, cameraOfAnOrganizedCloudIsItsSensor)
   EXPECT_FALSE(camera.project({0.0, 0.0, -1.0}));
 }
 
+TEST_F(RenderingTest, cameraOfARangeImageWithABadPointIsItsSensor)
+{
+  Cloud cloud = makeWall();
+  const Eigen::Vector3f p = cloud.point(1000);
+  cloud.set(1000, p.x() + 0.2F, p.y(), p.z());
+  const PictureCamera camera = pictureCamera(cloud);
+  EXPECT_TRUE(camera.is_sensor);
+  EXPECT_NEAR(camera.intrinsics.fx, 130.0, 1e-3);
+}
+
 TEST_F(RenderingTest, cameraOfAnUnorganizedCloudStandsAtTheSensorAndTakesThePointsIn)
 {
   for (const Eigen::Vector3f& offset : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(3, -2, 1)}) {
