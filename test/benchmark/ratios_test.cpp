@@ -41,7 +41,7 @@ constexpr Bound kPca{"paper/unfiltered", "paper/unfiltered/pca", &StageTimes::fi
 constexpr double kLeastShareOfTwoLocalizers = 0.65;
 
 // Three million points in any order, without a range image, take at most so many times as long as a range image.
-constexpr double kMostUnorganized = 120.0;
+constexpr double kMostUnorganized = 80.0;
 
 constexpr int kMostAttempts = 6;  // the best of which counts: what else the machine does can only spoil them
 constexpr std::size_t kRepetitions = 9, kTextbookRepetitions = 1;
@@ -141,8 +141,8 @@ TEST_F(Ratios, TwoThreads)
   EXPECT_GE(measuredRatio(frames, &StageTimes::total, kLeastShareOfTwoLocalizers), kLeastShareOfTwoLocalizers);
 }
 
-/// A search structure that keeps the cloud's order, or that goes back to the cloud for each point, takes five to ten
-/// times as long as this allows.
+/// 38 times as long was measured; a search structure that keeps the cloud's order, or that goes back to the cloud for
+/// each point, takes 150 to 200 times as long.
 TEST_F(Ratios, ThreeMillionUnorganizedPointsInAnyOrder)
 {
   constexpr std::size_t kPoints = 3000000;

@@ -7,7 +7,6 @@
 import http.client
 import http.server
 import os
-import random
 import signal
 import threading
 import time
@@ -87,8 +86,8 @@ class RoscppLocks(unittest.TestCase):
 
     def test_a_manager_ends_that_is_interrupted_while_it_unloads(self):
         """Its shutdown waits for the unloading, which must not wait for the shutdown."""
+        interrupted = 0  # before the unloading had an end
         for repetition in range(rospy.get_param('~repetitions')):
-            random.seed(repetition)
             with manager() as host:
                 nodelets = Nodelets()
                 nodelets.load('/localizer', 'LocalizerNodelet')
@@ -100,13 +99,15 @@ class RoscppLocks(unittest.TestCase):
                         pass  # the manager has ended before it answered
 
                 unloading = threading.Thread(target=unload, daemon=True)
-                host.signal(signal.SIGINT)  # noticed within 0.1 s
-                time.sleep(random.uniform(0.0, 0.12))
                 unloading.start()
+                time.sleep(0.012 * (repetition % 10))
+                interrupted += unloading.is_alive()
+                host.signal(signal.SIGINT)  # noticed within 0.1 s
                 self.assertIn(host.wait(20), (0, -signal.SIGINT), host.output())
                 unloading.join(20)
                 self.assertFalse(unloading.is_alive())
             wait_until(lambda: not any(name.startswith('/manager/') for name in services()), 'end')
+        self.assertGreater(interrupted, 0)
 
 
 if __name__ == '__main__':
