@@ -37,9 +37,9 @@ def ids(message):
     return [handle.id for handle in message.handles]
 
 
-def shifted(x, stamp):
+def shifted(x, stamp, frame=CAMERA):
     """T_room_camera of a camera that moves along x."""
-    result = TransformStamped(child_frame_id=CAMERA)
+    result = TransformStamped(child_frame_id=frame)
     result.header.frame_id = 'room'
     result.header.stamp = stamp
     result.transform.translation = Vector3(x, 0, 0)
@@ -101,17 +101,18 @@ class Tracking(unittest.TestCase):
         wait_until(lambda: all(p.get_num_connections() == 1 for p in publishers) and
                    self.moving.get_num_connections() == transforms, 'connections')
 
-    def publish(self, cloud, seconds, topic=0):
+    def publish(self, cloud, seconds, topic=0, frame=CAMERA):
         """The cloud, so long after the start of the test; returns its stamp."""
         message = copy.copy(cloud)
         message.header = copy.copy(cloud.header)
         message.header.stamp = self.start + rospy.Duration(seconds)
+        message.header.frame_id = frame
         self.points[topic].publish(message)
         return message.header.stamp
 
-    def handles(self, node, cloud, seconds):
+    def handles(self, node, cloud, seconds, frame=CAMERA):
         """What is known after a cloud; hand poses are those of these handles."""
-        stamp = self.publish(cloud, seconds)
+        stamp = self.publish(cloud, seconds, frame=frame)
         message = node.answer('handles', stamp)
         self.assertEqual(ids(message), sorted(set(ids(message))))
         poses = [hand.pose for handle in message.handles for hand in handle.hand_poses]
@@ -222,6 +223,42 @@ class Tracking(unittest.TestCase):
                 late = 0.2 if i % 2 else 0
                 message = self.handles(node, self.table[i % VARIANTS], i * PERIOD - late)
                 self.assertTrue(best <= set(ids(message)), 'cloud %d: %s of %s' % (i, ids(message), best))
+
+    def test_a_slash_before_the_frame_says_nothing(self):
+        with Node('localizer_node') as node:
+            self.connect()
+            first = self.handles(node, self.table[0], 0)
+            best = {handle.id for handle in sorted(first.handles, key=lambda h: -h.score)[:3]}
+            for i in range(1, 7):
+                message = self.handles(node, self.table[i % VARIANTS], i * PERIOD, '/' + CAMERA if i % 2 else CAMERA)
+                self.assertTrue(best <= set(ids(message)), 'cloud %d: %s of %s' % (i, ids(message), best))
+                self.assertEqual(message.header.frame_id, CAMERA)  # with a slash tf2 would refuse it
+            self.assertEqual(node.output().count("'/%s'" % CAMERA), 1)
+            self.assertNotIn('another frame', node.output())
+
+    def test_frames_that_alternate_are_named_once(self):
+        with Node('localizer_node') as node:
+            self.connect()
+            seen = set()
+            for i in range(4):
+                message = self.handles(node, self.table[0], i * PERIOD, 'another' if i % 2 else CAMERA)
+                self.assertFalse(seen & set(ids(message)))
+                seen |= set(ids(message))
+            self.assertEqual(node.output().count("'another' after '%s'" % CAMERA), 1)
+            self.assertNotIn("'%s' after" % CAMERA, node.output())
+
+    def test_frames_that_alternate_before_a_fixed_one(self):
+        with Node('localizer_node', '_fixed_frame:=room', '_transform_timeout:=5') as node:
+            self.connect(transforms=1)
+            for i in range(4):
+                frame = 'another' if i % 2 else CAMERA
+                self.moving.publish([shifted(0, self.start + rospy.Duration(i * PERIOD), frame)])
+                message = self.handles(node, self.table[i % VARIANTS], i * PERIOD, frame)
+                self.assertEqual(message.header.frame_id, frame)
+                if i == 0:
+                    first = message
+            self.assertGreaterEqual(len(set(ids(first)) & set(ids(message))), 3)
+            self.assertNotIn('another frame', node.output())
 
     def test_handles_are_tracked_in_the_fixed_frame(self):
         # The same cloud from a camera that moves: in the room nothing is where it was.

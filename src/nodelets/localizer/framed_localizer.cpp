@@ -1,6 +1,7 @@
 #include "nodelets/localizer/framed_localizer.h"
 
 #include "nodelets/messages/region_of_interest.h"
+#include "nodelets/roscpp/frame_name.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -60,7 +61,7 @@ FramedLocalizer::Frames FramedLocalizer::lookUp(const std_msgs::Header& common,
     }
   }
   const std::string workspace_frame = regionFrame(region, parameters_.workspace_frame);
-  result.workspace_frame = workspace_frame.empty() ? common.frame_id : workspace_frame;
+  result.workspace_frame = frameName(workspace_frame.empty() ? common.frame_id : workspace_frame);
   result.T_workspace_common = transform(workspace_frame, common);
   result.T_output_common = transform(parameters_.target_frame, common);
   result.T_approach_common = transform(parameters_.approach_frame, common);
@@ -83,7 +84,8 @@ std_msgs::Header FramedLocalizer::localize(const std::vector<Cloud*>& clouds, co
   localizer_.configure(config);
   localizer_.localize(posed_clouds_, localization_, frames.T_workspace_common, frames.T_approach_common);
   std_msgs::Header output = common;
-  if (!parameters_.target_frame.empty() && parameters_.target_frame != common.frame_id) {
+  output.frame_id = frameName(common.frame_id);
+  if (!parameters_.target_frame.empty() && parameters_.target_frame != output.frame_id) {
     output.frame_id = parameters_.target_frame;
     for (Shell& shell : localization_.shells) {
       shell = transformed(shell, frames.T_output_common);

@@ -58,7 +58,7 @@ public:
 
   /// Localizes. The result, see localization(), is in the frame of the outputs.
   /// @param clouds  get their sensor's place from the frames
-  /// @return the header of all outputs
+  /// @return the header of all outputs; its frame begins without a slash
   /// @throw Cancelled
   std_msgs::Header localize(const std::vector<Cloud*>& clouds, const std_msgs::Header& common, const Frames& frames,
                             const Config& config);

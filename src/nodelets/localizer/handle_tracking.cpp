@@ -11,6 +11,7 @@ const std::vector<GraspHandle>& HandleTracking::update(const std::vector<GraspHa
 {
   const CloudClock::Reading now = clock_.read(header.stamp, arrival);
   const std::string& frame = fixed_frame.name.empty() ? header.frame_id : fixed_frame.name;
+  frame_before_ = config.track && !now.began_anew && frame != frame_ ? frame_ : "";
   if (now.began_anew || frame != frame_) {
     tracker_.reset();
     frame_ = frame;

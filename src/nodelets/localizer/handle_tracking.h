@@ -34,10 +34,15 @@ public:
                                          const std_msgs::Header& header, CloudClock::Arrival arrival,
                                          const FixedFrame& fixed_frame);
 
+  /// The frame that handles were tracked in before, where they were forgotten in the last update because it is another
+  /// one now; else empty.
+  const std::string& frameBefore() const { return frame_before_; }
+
 private:
   CloudClock clock_;
   HandleTracker tracker_;
   std::string frame_;
+  std::string frame_before_;
   std::vector<GraspHandle> handles_;
 };
 

@@ -2,15 +2,14 @@
 
 #include "grasp_affordances/localizer.h"
 #include "nodelets/messages/region_of_interest.h"
+#include "nodelets/roscpp/frame_name.h"
 #include "nodelets/roscpp/ros_time.h"
 
 #include <ros/console.h>
 #include <ros/init.h>
-#include <std_msgs/Header.h>
 #include <tf2/exceptions.h>
 
 #include <exception>
-#include <vector>
 
 namespace grasp_affordances
 {
@@ -150,6 +149,7 @@ void LocalizingLoop::localize(const Arrival& arrival, const std::optional<Region
   for (const sensor_msgs::PointCloud2ConstPtr& cloud : arrival.clouds) {
     headers.push_back(cloud->header);
   }
+  warnOfSlashes(headers);
   const FramedLocalizer::Frames frames = localizer_->lookUp(gathered.header, headers, region);
   const std_msgs::Header header = localizer_->localize(gathered.clouds, gathered.header, frames, config);
   const Localization& localization = localizer_->localization();
@@ -159,8 +159,32 @@ void LocalizingLoop::localize(const Arrival& arrival, const std::optional<Region
   }
   const std::vector<GraspHandle>& known =
       handle_tracking_.update(localization.handles, config.tracking, header, arrival.time, frames.fixed);
+  warnOfFrames(header);
   trigger_.answer(
       publishers_.publish({localization, known, config, header, frames.workspace_frame, arrival.time}, counters_));
+}
+
+void LocalizingLoop::warnOfSlashes(const std::vector<std_msgs::Header>& clouds)
+{
+  for (const std_msgs::Header& cloud : clouds) {
+    const std::string frame = frameName(cloud.frame_id);
+    if (!warned_of_slashes_ && frame != cloud.frame_id) {
+      ROS_WARN_STREAM_NAMED(name_, "clouds come in the frame '" << cloud.frame_id << "', which is taken for '" << frame
+                                                                << "': tf2 knows no leading slash");
+      warned_of_slashes_ = true;
+    }
+  }
+}
+
+void LocalizingLoop::warnOfFrames(const std_msgs::Header& output)
+{
+  const std::string& before = handle_tracking_.frameBefore();
+  if (!warned_of_frames_ && !before.empty()) {
+    ROS_WARN_STREAM_NAMED(name_, "handles get new ids whenever clouds come in another frame, as now in '"
+                                     << output.frame_id << "' after '" << before
+                                     << "': fixed_frame can name one in which they are tracked all the same");
+    warned_of_frames_ = true;
+  }
 }
 
 }  // namespace grasp_affordances

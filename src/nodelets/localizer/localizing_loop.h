@@ -20,6 +20,7 @@
 #include <ros/node_handle.h>
 #include <ros/time.h>
 #include <ros/wall_timer.h>
+#include <std_msgs/Header.h>
 
 #include <atomic>
 #include <chrono>
@@ -27,6 +28,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace grasp_affordances
 {
@@ -76,6 +78,8 @@ private:
   void startAgain(const ros::Time& stamp);
   void process(const Arrival& arrival);
   void localize(const Arrival& arrival, const std::optional<RegionOfInterest>& call);
+  void warnOfSlashes(const std::vector<std_msgs::Header>& clouds);
+  void warnOfFrames(const std_msgs::Header& output);
   std::unique_ptr<FramedLocalizer> makeLocalizer(const Config& config);
 
   NameClaim name_claim_;  // first: it is the last to go
@@ -99,6 +103,8 @@ private:
   Throttle rejections_;
   Throttle missing_transforms_;
   Throttle warnings_;
+  bool warned_of_slashes_ = false;
+  bool warned_of_frames_ = false;
 
   TriggerService trigger_;
   LocalizeService localize_service_;

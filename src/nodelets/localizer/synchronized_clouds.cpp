@@ -4,6 +4,7 @@
 #include "grasp_affordances/point_cloud2.h"
 #include "nodelets/localizer/input_topic.h"
 #include "nodelets/localizer/silence.h"
+#include "nodelets/roscpp/frame_name.h"
 
 #include <ros/console.h>
 
@@ -147,8 +148,8 @@ void SynchronizedClouds::complainOfSharedFrames(const Clouds& messages)
 {
   for (std::size_t i = 1; i < views_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const std::string& frame = messages[i]->header.frame_id;
-      if (frame == messages[j]->header.frame_id && isInSensorFrame(views_[i].cloud) &&
+      const std::string frame = frameName(messages[i]->header.frame_id);
+      if (frame == frameName(messages[j]->header.frame_id) && isInSensorFrame(views_[i].cloud) &&
           isInSensorFrame(views_[j].cloud)) {
         ROS_ERROR_STREAM_NAMED(name_, views_[j].points_topic
                                           << " and " << views_[i].points_topic << " both have the frame '" << frame

@@ -4,6 +4,7 @@
 #include "nodelets/parameters/parameter_reader.h"
 #include "nodelets/parameters/reconfiguration.h"
 #include "nodelets/roscpp/cloud_synchronizer.h"
+#include "nodelets/roscpp/frame_name.h"
 
 #include <string>
 
@@ -12,11 +13,10 @@ namespace grasp_affordances
 namespace
 {
 
-/// tf2's names begin without a slash, unlike those of ROS before it.
 void readFrame(const std::string& name, ParameterReader& read, std::string& frame)
 {
   read(name, frame, "the name of a frame");
-  frame.erase(0, frame.find_first_not_of('/'));
+  frame = frameName(frame);
 }
 
 void readNodeParameters(ParameterReader& read, NodeParameters& result)

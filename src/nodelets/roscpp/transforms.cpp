@@ -1,5 +1,6 @@
 #include "nodelets/roscpp/transforms.h"
 
+#include "nodelets/roscpp/frame_name.h"
 #include "nodelets/roscpp/subscribing.h"
 
 #include <ros/console.h>
@@ -20,12 +21,6 @@ namespace
 constexpr std::uint32_t kSubscriberQueue = 100;
 constexpr std::uint32_t kThreads = 1;
 constexpr std::chrono::milliseconds kShutdownPoll{50};  // nothing tells of the end of the node
-
-/// tf2 knows no leading slash, with which older drivers and bags name their frames.
-std::string frameName(const std::string& name)
-{
-  return !name.empty() && name[0] == '/' ? name.substr(1) : name;
-}
 
 /// tf2 also takes quaternions of which few digits were given, and does not normalize them.
 Eigen::Isometry3d isometry(geometry_msgs::TransformStamped transform)
