@@ -47,8 +47,9 @@ def text(answer):
     p, q = pose.position, pose.orientation
     return '\n'.join((
         'handle %d, score %.2f, radius %.3f m, length %.3f m' % (handle.id, handle.score, handle.radius, handle.length),
-        'frame %s, stamp %d.%09d' % (answer.hand_pose.header.frame_id, answer.hand_pose.header.stamp.secs,
-                                     answer.hand_pose.header.stamp.nsecs),
+        'frame %s, stamp %d.%09d, age %.1f s'
+        % (answer.hand_pose.header.frame_id, answer.hand_pose.header.stamp.secs, answer.hand_pose.header.stamp.nsecs,
+           answer.age),
         'hand pose: position %.3f %.3f %.3f m, orientation (x y z w) %.4f %.4f %.4f %.4f'
         % (p.x, p.y, p.z, q.x, q.y, q.z, q.w),
         'opening %.3f m, score of the pose %.2f' % (handle.hand_poses[0].width, handle.hand_poses[0].score)))

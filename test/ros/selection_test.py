@@ -225,6 +225,26 @@ class Selection(unittest.TestCase):
         self.assertEqual(nobody.returncode, 1)
         self.assertIn('nobody', nobody.stderr.decode())
 
+    def test_handles_of_a_cloud_long_ago_are_no_answer(self):
+        handle = self.approachable[0]
+        self.assertTrue(self.best().success)
+        self.scene.interrupt()
+        wait_until(lambda: not self.best().success, 'refusal')
+        for answer in (self.best(), self.select(id=handle.id)):
+            self.assertFalse(answer.success)
+            self.assertRegex(answer.message, r'^the last cloud that was localized in came [56]\.\d s ago, .* 5 s .*max_age')
+        self.assertTrue(self.select(id=0).success)
+
+        command = [executable('grasp_affordances', 'pick_best.py'), '--node', 'localizer', '--timeout', '1']
+        client = subprocess.run(command, stderr=subprocess.PIPE, timeout=30)
+        self.assertEqual(client.returncode, 1)
+        self.assertRegex(client.stderr.decode(), r'^pick_best\.py: .* came \d+\.\d s ago, .*\n$')
+        self.assertGreater(self.best().age, 5)
+
+        self.show('table')
+        wait_until(lambda: self.best().success, 'an answer from a new cloud')
+        self.assertLess(self.best().age, 5)
+
     def test_who_listens_to_selection_or_interactive_markers_is_a_listener(self):
         while self.listeners:
             self.listeners.pop().close()

@@ -13,10 +13,12 @@ import rospy
 import rostest
 import tf2_ros
 from geometry_msgs.msg import PoseArray, Quaternion, TransformStamped, Vector3
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
 
 from grasp_affordances.msg import HandleArray, LocalizationStatistics
+from grasp_affordances.srv import BestHandle
 from helpers import Launch, Listener, Process, publisher, rotated, wait_until, write_scene
 
 CAMERA = 'by_hand_optical'
@@ -213,6 +215,26 @@ class Tracking(unittest.TestCase):
                 last = answer(self.empty)
                 time.sleep(0.05)
             self.assertEqual(ids(last), [])
+
+    def test_handles_age_by_a_simulated_clock(self):
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        clock = rospy.Publisher('/clock', Clock, queue_size=1, latch=True)
+        self.addCleanup(clock.unregister)
+        clock.publish(Clock(rospy.Time(100)))
+        best = rospy.ServiceProxy('node/best', BestHandle)
+        with Node('localizer_node', '_max_age:=0.5') as node:
+            self.connect()
+            wait_until(lambda: clock.get_num_connections() == 1, 'clock')
+            time.sleep(0.5)  # until it has come: nothing tells
+            self.handles(node, self.table[0], 0)
+            time.sleep(1)
+            answer = best()
+            self.assertTrue(answer.success, answer.message)
+            self.assertEqual(answer.age, 0)
+            clock.publish(Clock(rospy.Time(101)))
+            wait_until(lambda: not best().success, 'refusal')
+            self.assertAlmostEqual(best().age, 1)
 
     def test_late_clouds_have_nothing_forgotten(self):
         with Node('localizer_node') as node:

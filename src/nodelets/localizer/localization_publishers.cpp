@@ -12,7 +12,7 @@
 namespace grasp_affordances
 {
 
-void LocalizationPublishers::advertise(ros::NodeHandle& private_node_handle, const std::string& name,
+void LocalizationPublishers::advertise(ros::NodeHandle& private_node_handle, const std::string& name, double max_age,
                                        const std::function<void()>& listeners_changed)
 {
   const auto changed =
@@ -22,7 +22,7 @@ void LocalizationPublishers::advertise(ros::NodeHandle& private_node_handle, con
   hand_poses_ = private_node_handle.advertise<geometry_msgs::PoseArray>("hand_poses", 1, changed, changed);
   markers_ = private_node_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
   statistics_ = private_node_handle.advertise<LocalizationStatistics>("statistics", 1, changed, changed);
-  selection_.advertise(private_node_handle, name, gate_.guarded(listeners_changed));
+  selection_.advertise(private_node_handle, name, max_age, gate_.guarded(listeners_changed));
 }
 
 bool LocalizationPublishers::anybodyListens() const
@@ -40,7 +40,7 @@ LocalizationPublishers::Messages LocalizationPublishers::publish(const Result& r
   const auto handles = boost::make_shared<HandleArray>(handlesMessage(known, header));
   shells_.publish(shells);
   handles_.publish(handles);
-  selection_.update(known, result.config, header);
+  selection_.update(known, result.config, header, result.arrival);
   hand_poses_.publish(boost::make_shared<geometry_msgs::PoseArray>(handPosesMessage(known, header)));
   markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(
       localization_markers_.update(result.localization.shells, known, result.config, header, result.workspace_frame)));
@@ -48,7 +48,8 @@ LocalizationPublishers::Messages LocalizationPublishers::publish(const Result& r
   auto statistics =
       boost::make_shared<LocalizationStatistics>(statisticsMessage(result.localization, result.config, header));
   counters.report(*statistics);
-  statistics->milliseconds_latency = std::chrono::duration<double, std::milli>(Clock::now() - result.arrival).count();
+  statistics->milliseconds_latency =
+      std::chrono::duration<double, std::milli>(Clock::now() - result.arrival.steady).count();
   statistics_.publish(statistics);
   return {shells, handles, statistics};
 }

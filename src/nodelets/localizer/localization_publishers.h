@@ -9,6 +9,7 @@
 #include "nodelets/localizer/cloud_counters.h"
 #include "nodelets/messages/markers.h"
 #include "nodelets/roscpp/callback_gate.h"
+#include "nodelets/roscpp/ros_time.h"
 #include "nodelets/selection/handle_selection.h"
 
 #include <ros/node_handle.h>
@@ -39,7 +40,7 @@ public:
     const Config& config;                           ///< of this cloud
     const std_msgs::Header& header;                 ///< of all outputs
     std::string workspace_frame;                    ///< of the box in `config`
-    Clock::time_point arrival;                      ///< of the cloud
+    Moment arrival;                                 ///< of the cloud
   };
 
   /// What was published for a cloud.
@@ -50,9 +51,10 @@ public:
     LocalizationStatisticsConstPtr statistics;
   };
 
+  /// @param max_age  see HandleSelection::advertise()
   /// @param listeners_changed  called, from any thread, when somebody begins or ceases to listen; also before
   /// advertise() has returned
-  void advertise(ros::NodeHandle& private_node_handle, const std::string& name,
+  void advertise(ros::NodeHandle& private_node_handle, const std::string& name, double max_age,
                  const std::function<void()>& listeners_changed);
 
   /// Whether anybody listens to an output. From any thread, after advertise().

@@ -73,7 +73,7 @@ void LocalizingLoop::start(ros::NodeHandle& node_handle, ros::NodeHandle& privat
   rate_limiter_.emplace(parameters.max_rate);
   reconfiguration_.advertise(private_node_handle, name, parameters.config);
   worker_ = std::make_unique<NewestOnlyWorker<Arrival>>([this](const Arrival& arrival) { process(arrival); });
-  publishers_.advertise(private_node_handle, name, [this] { demand_.update(); });
+  publishers_.advertise(private_node_handle, name, longestAge(parameters), [this] { demand_.update(); });
   const CloudInput::Receiver receiver{[this](const CloudInput::Clouds& clouds) { receive(clouds); },
                                       [this](const ros::Time& stamp) { startAgain(stamp); }};
   demand_.open(name,
@@ -96,10 +96,10 @@ std::unique_ptr<FramedLocalizer> LocalizingLoop::makeLocalizer(const Config& con
 
 void LocalizingLoop::receive(const CloudInput::Clouds& clouds)
 {
-  const Clock::time_point now = Clock::now();
-  const bool asked = trigger_.arrives(now);
+  const Moment now = Moment::now();
+  const bool asked = trigger_.arrives(now.steady);
   if (!asked && (setup_.parameters.on_demand ||
-                 !rate_limiter_->passes(std::chrono::nanoseconds(now.time_since_epoch()).count()))) {
+                 !rate_limiter_->passes(std::chrono::nanoseconds(now.steady.time_since_epoch()).count()))) {
     counters_.leaveOut();
     return;
   }
@@ -116,7 +116,7 @@ void LocalizingLoop::startAgain(const ros::Time& stamp)
 
 void LocalizingLoop::process(const Arrival& arrival)
 {
-  const std::optional<RegionOfInterest> call = trigger_.take(arrival.time);
+  const std::optional<RegionOfInterest> call = trigger_.take(arrival.time.steady);
   try {
     localize(arrival, call);
   } catch (const tf2::TransformException& error) {
@@ -158,7 +158,7 @@ void LocalizingLoop::localize(const Arrival& arrival, const std::optional<Region
     ROS_WARN_STREAM_NAMED(name_, joined(localization.warnings));
   }
   const std::vector<GraspHandle>& known =
-      handle_tracking_.update(localization.handles, config.tracking, header, arrival.time, frames.fixed);
+      handle_tracking_.update(localization.handles, config.tracking, header, arrival.time.steady, frames.fixed);
   warnOfFrames(header);
   trigger_.answer(
       publishers_.publish({localization, known, config, header, frames.workspace_frame, arrival.time}, counters_));

@@ -14,6 +14,7 @@
 #include "nodelets/roscpp/name_claim.h"
 #include "nodelets/roscpp/newest_only_worker.h"
 #include "nodelets/roscpp/rate_limiter.h"
+#include "nodelets/roscpp/ros_time.h"
 #include "nodelets/roscpp/throttle.h"
 #include "nodelets/roscpp/transforms.h"
 
@@ -66,12 +67,10 @@ public:
              const std::function<Setup()>& set_up);
 
 private:
-  using Clock = LocalizationPublishers::Clock;
-
   struct Arrival
   {
     CloudInput::Clouds clouds;
-    Clock::time_point time;
+    Moment time;
   };
 
   void receive(const CloudInput::Clouds& clouds);

@@ -6,6 +6,7 @@
 #include "nodelets/roscpp/cloud_synchronizer.h"
 #include "nodelets/roscpp/frame_name.h"
 
+#include <algorithm>
 #include <string>
 
 namespace grasp_affordances
@@ -28,6 +29,7 @@ void readNodeParameters(ParameterReader& read, NodeParameters& result)
   read("lazy", result.lazy, "");
   read("on_demand", result.on_demand, "");
   read("max_rate", result.max_rate, Range<double>{0.0, 120.0}, "Hz", "");
+  read("max_age", result.max_age, Range<double>{0.0, 3600.0}, "s", "");
   readFrame("workspace_frame", read, result.workspace_frame);
   readFrame("target_frame", read, result.target_frame);
   readFrame("fixed_frame", read, result.fixed_frame);
@@ -62,6 +64,14 @@ MultiCameraParameters multiCameraParameters(ParameterReader read)
 }
 
 }  // namespace
+
+double longestAge(const NodeParameters& parameters)
+{
+  if (parameters.max_age == 0.0 || parameters.max_rate == 0.0) {
+    return parameters.max_age;
+  }
+  return std::max(parameters.max_age, 2.0 / parameters.max_rate);
+}
 
 NodeParameters nodeParameters(const XmlRpc::XmlRpcValue& parameters)
 {

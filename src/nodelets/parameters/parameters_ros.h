@@ -18,6 +18,7 @@ struct NodeParameters
   bool lazy = true;                ///< subscribe only while somebody listens to an output
   bool on_demand = false;          ///< localize only in clouds that are asked for, see TriggerService
   double max_rate = 0.0;           ///< Hz, of clouds that are localized in unasked; 0: as fast as they come
+  double max_age = 5.0;            ///< s since the newest cloud arrived beyond which ~best and ~select refuse; 0: never
   std::string workspace_frame;     ///< of the box in `config`; empty: the frame of the cloud
   std::string target_frame;        ///< of the outputs; empty: the frame of the cloud
   std::string fixed_frame;         ///< in which handles stand still and are tracked; empty: that of the outputs
@@ -26,6 +27,10 @@ struct NodeParameters
                                    ///< empty: not known. Only for one camera
   double transform_timeout = 0.1;  ///< s of wall-clock time that a cloud waits for its transforms
 };
+
+/// s since the newest cloud arrived beyond which its handles are refused: `max_age` or, where `max_rate` asks for
+/// longer pauses, two of these; 0: never.
+double longestAge(const NodeParameters& parameters);
 
 /// Reads the struct of a node's private parameters: `preset` names the base, the parameters of
 /// visitParameters() and those above overrule it. Every name must be known: the private namespace belongs to the node.

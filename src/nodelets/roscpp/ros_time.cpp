@@ -29,6 +29,19 @@ bool TimeJumps::wentBack(const ros::Time& stamp)
   return back;
 }
 
+Moment Moment::now()
+{
+  return {std::chrono::steady_clock::now(), ros::Time::isSimTime() ? ros::Time::now() : ros::Time()};
+}
+
+double secondsBetween(const Moment& from, const Moment& to)
+{
+  if (!from.simulated.isZero() && from.simulated <= to.simulated) {
+    return to.simulated.toSec() - from.simulated.toSec();
+  }
+  return std::chrono::duration<double>(to.steady - from.steady).count();
+}
+
 ros::WallTimer complainWithoutClock(ros::NodeHandle& node_handle, const std::string& logger)
 {
   if (!ros::Time::isSimTime()) {

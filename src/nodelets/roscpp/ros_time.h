@@ -5,6 +5,7 @@
 #include <ros/time.h>
 #include <ros/wall_timer.h>
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
@@ -45,6 +46,19 @@ private:
   ros::Duration tolerance_;
   ros::Time latest_;  // zero before the first
 };
+
+/// A moment by two clocks.
+struct Moment
+{
+  std::chrono::steady_clock::time_point steady;  ///< never stands still or goes back
+  ros::Time simulated;                           ///< zero where ROS time is not simulated, or no /clock has come
+
+  static Moment now();
+};
+
+/// s from one moment to a later one: in simulated time, so that nothing ages while a simulation or a bag is paused.
+/// Where that is not known, or went back, by the steady clock.
+double secondsBetween(const Moment& from, const Moment& to);
 
 /// Where ROS time is simulated: complains once per period of wall-clock time, under the logger's name, until a /clock
 /// arrives. To be kept while that is wanted.

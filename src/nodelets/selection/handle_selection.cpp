@@ -7,6 +7,9 @@
 #include <boost/function.hpp>
 
 #include <algorithm>
+#include <iomanip>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace grasp_affordances
@@ -15,13 +18,15 @@ namespace
 {
 
 constexpr char kInteractive[] = "handles_interactive";
+constexpr char kLazy[] = "a lazy node waits until somebody listens to an output";
 
 }  // namespace
 
-void HandleSelection::advertise(ros::NodeHandle& private_node_handle, const std::string& name,
+void HandleSelection::advertise(ros::NodeHandle& private_node_handle, const std::string& name, double max_age,
                                 const std::function<void()>& listeners_changed)
 {
   name_ = name;
+  max_age_ = max_age;
   const auto changed = [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
   const auto advertise_latched = [&](const std::string& topic, auto message) {
     return private_node_handle.advertise<decltype(message)>(topic, 1, changed, changed, ros::VoidConstPtr(), true);
@@ -66,13 +71,13 @@ void HandleSelection::close()
 }
 
 void HandleSelection::update(const std::vector<GraspHandle>& handles, const Config& config,
-                             const std_msgs::Header& header)
+                             const std_msgs::Header& header, const Moment& arrival)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (header.frame_id != header_.frame_id) {
     choice_.reset();  // its directions are those of another frame
   }
-  any_cloud_ = true;
+  arrival_ = arrival;
   header_ = header;
   handles_ = handles;
   geometry_ = config.hand;
@@ -115,6 +120,10 @@ bool HandleSelection::answerSelect(SelectHandle::Request& request, SelectHandle:
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const GraspHandle* handle = find(request.id);
+  response.message = request.id == 0 ? "" : whyTooOld();
+  if (!response.message.empty()) {
+    return true;
+  }
   if (request.id != 0 && handle == nullptr) {
     response.message = "no handle " + std::to_string(request.id) + " is known; " + knownIds();
     return true;
@@ -133,6 +142,11 @@ bool HandleSelection::answerSelect(SelectHandle::Request& request, SelectHandle:
 bool HandleSelection::answerBest(BestHandle::Request& request, BestHandle::Response& response)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  response.age = age();
+  response.message = whyTooOld();
+  if (!response.message.empty()) {
+    return true;
+  }
   const GraspHandle* handle = best();
   if (handle == nullptr) {
     response.message = handles_.empty() ? knownIds() : "none of the handles can be approached; " + knownIds();
@@ -167,10 +181,28 @@ const GraspHandle* HandleSelection::best() const
   return best;
 }
 
+double HandleSelection::age() const
+{
+  return arrival_ ? secondsBetween(*arrival_, Moment::now()) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Empty where the handles still count.
+std::string HandleSelection::whyTooOld() const
+{
+  const double seconds = age();
+  std::ostringstream text;
+  if (max_age_ > 0.0 && seconds > max_age_) {
+    text << "the last cloud that was localized in came " << std::fixed << std::setprecision(1) << seconds
+         << " s ago, and handles older than " << std::defaultfloat << std::setprecision(6) << max_age_
+         << " s do not count (max_age; " << kLazy << ")";
+  }
+  return text.str();
+}
+
 std::string HandleSelection::knownIds() const
 {
-  if (!any_cloud_) {
-    return "nothing has been localized yet (a lazy node waits until somebody listens to an output)";
+  if (!arrival_) {
+    return std::string("nothing has been localized yet (") + kLazy + ")";
   }
   if (handles_.empty()) {
     return "no handle is known";

@@ -87,6 +87,21 @@ TEST(NodeParameters, OnDemand)
   EXPECT_TRUE(contains(refusal("", "max_rate", -1.0), "[0, 120] Hz"));
 }
 
+TEST(NodeParameters, HandlesHaveALongestAge)
+{
+  EXPECT_EQ(longestAge(NodeParameters()), 5.0);
+  XmlRpcValue parameters;
+  parameters["max_age"] = 2.0;
+  EXPECT_EQ(longestAge(nodeParameters(parameters)), 2.0);
+  parameters["max_rate"] = 10.0;
+  EXPECT_EQ(longestAge(nodeParameters(parameters)), 2.0);
+  parameters["max_rate"] = 0.1;
+  EXPECT_EQ(longestAge(nodeParameters(parameters)), 20.0) << "a cloud every 10 s is what was asked for";
+  parameters["max_age"] = 0.0;
+  EXPECT_EQ(longestAge(nodeParameters(parameters)), 0.0) << "no limit";
+  EXPECT_TRUE(contains(refusal("", "max_age", -1.0), "[0, 3600] s"));
+}
+
 TEST(NodeParameters, PassOverWhatReconfigurationHasLeft)
 {
   EXPECT_EQ(refusal("reconfigure", "hand_capture_radius", 0.03), "");
