@@ -67,6 +67,9 @@ MultiCameraParameters multiCameraParameters(ParameterReader read)
 
 double longestAge(const NodeParameters& parameters)
 {
+  if (parameters.on_demand) {
+    return 0.0;  // the cloud was asked for, and whoever did knows when
+  }
   if (parameters.max_age == 0.0 || parameters.max_rate == 0.0) {
     return parameters.max_age;
   }

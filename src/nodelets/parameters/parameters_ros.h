@@ -29,7 +29,7 @@ struct NodeParameters
 };
 
 /// s since the newest cloud arrived beyond which its handles are refused: `max_age` or, where `max_rate` asks for
-/// longer pauses, two of these; 0: never.
+/// longer pauses, two of these; 0: never, as where clouds are localized in on demand.
 double longestAge(const NodeParameters& parameters);
 
 /// Reads the struct of a node's private parameters: `preset` names the base, the parameters of

@@ -99,6 +99,9 @@ TEST(NodeParameters, HandlesHaveALongestAge)
   EXPECT_EQ(longestAge(nodeParameters(parameters)), 20.0) << "a cloud every 10 s is what was asked for";
   parameters["max_age"] = 0.0;
   EXPECT_EQ(longestAge(nodeParameters(parameters)), 0.0) << "no limit";
+  parameters["max_age"] = 2.0;
+  parameters["on_demand"] = true;
+  EXPECT_EQ(longestAge(nodeParameters(parameters)), 0.0) << "the cloud was asked for";
   EXPECT_TRUE(contains(refusal("", "max_age", -1.0), "[0, 3600] s"));
 }
 
