@@ -71,8 +71,7 @@ TEST(CloseUp, OfARangeImageWithABadPointIsWhatASensorMeasured)
   Random random(2);
   Cloud cloud = makeOrganizedCloud(random);
   cloud.set(0, 1.0F, 1.0F, -1.0F);
-  const ColoredCloud view =
-      closeUp(cloud, labelColors(Labels(cloud.size(), 0)), Eigen::Vector3d(0.1, 0.05, 0.65), 0.1);
+  const ColoredCloud view = closeUp(cloud, labelColors(Labels(cloud.size(), 0)), Eigen::Vector3d(0.1, 0.05, 0.65), 0.1);
   EXPECT_GT(view.cloud.height, 1U);
   EXPECT_TRUE(pictureCamera(view.cloud).is_sensor);
 }
