@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A workspace in another frame, outputs in another frame, and transforms that are late, missing or of an earlier run."""
 
+import contextlib
 import copy
 import math
 import time
@@ -9,6 +10,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
@@ -353,6 +355,84 @@ class Tf(unittest.TestCase):
             self.publish(start + rospy.Duration(0.1))
             wait_until(lambda: 'want of a transform' in localizer.output(), 'complaint')
             self.assertAlmostEqual(self.first_centroid(localizer, start, 3, 0.15) - first, 3, delta=1e-6)
+
+    def send(self, x, *stamps):
+        """The origin of the frame room in the frame map, along x."""
+        for stamp in stamps:
+            self.moving.publish([transform('map', 'room', (x, 0, 0), stamp=stamp)])
+        time.sleep(0.2 * TIME_FACTOR)  # until they have arrived: nothing tells
+
+    @staticmethod
+    def moments():
+        """What gives the time that is some seconds from now."""
+        start = rospy.Time.now()
+        return lambda seconds: start + rospy.Duration(seconds)
+
+    def check_place(self, localizer, stamp, x):
+        """Where the frame room was in the frame map for the cloud of that stamp."""
+        centroid = localizer.answer('shells', stamp).shells[0].centroid
+        self.assertLess(abs(centroid.x - x), 2)  # of the table in the frame room
+
+    def test_transforms_of_runs_in_which_nothing_was_looked_up_are_forgotten(self):
+        at = self.moments()
+        with self.clock() as set_clock, \
+                Localizer('localizer', '_target_frame:=map', '_transform_timeout:=0.2') as localizer:
+            self.connect()
+            for x, seconds in ((10, 100), (20, 50)):
+                set_clock(at(seconds))
+                self.send(x, at(seconds), at(seconds + 2))
+            set_clock(at(46))
+            self.send(30, at(46), at(54))
+            self.check_place(localizer, self.publish(at(51)), 30)
+            # The clouds go back first.
+            self.publish(at(47))
+            wait_until(lambda: 'want of a transform' in localizer.output(), 'complaint')
+            localizer.interrupt()
+            self.assertIn('transforms begin anew: /clock goes back to', localizer.output())
+
+    def test_a_clock_that_went_back_while_no_transforms_came(self):
+        at = self.moments()
+        with self.clock() as set_clock, \
+                Localizer('localizer', '_target_frame:=map', '_transform_timeout:=0.2') as localizer:
+            self.connect()
+            set_clock(at(50))
+            self.send(10, at(50), at(52))
+            for seconds in (20, 60):
+                set_clock(at(seconds))
+                time.sleep(1.2 * TIME_FACTOR)  # the node looks at the clock every half a second: nothing tells
+            self.publish(at(51))
+            wait_until(lambda: 'want of a transform' in localizer.output(), 'complaint')
+
+    def test_transforms_that_went_back_without_a_clock_before_anybody_asked(self):
+        at = self.moments()
+        with Localizer('localizer', '_target_frame:=map', '_transform_timeout:=10') as localizer:
+            self.connect()
+            self.send(10, at(50), at(52))
+            self.send(30, at(46))
+            stamp = self.publish(at(51))
+            time.sleep(0.5 * TIME_FACTOR)  # until they have been forgotten on its account: nothing tells
+            end = time.monotonic() + 9 * TIME_FACTOR
+            while not localizer.answered() and time.monotonic() < end:
+                self.send(30, at(50.9), at(51.1))
+            self.check_place(localizer, stamp, 30)
+            localizer.interrupt()
+            self.assertIn('transforms begin anew: those of room go back to', localizer.output())
+
+    @contextlib.contextmanager
+    def clock(self):
+        """ROS time is simulated for who starts now; yields how to set it."""
+        rospy.set_param('/use_sim_time', True)
+        publisher = rospy.Publisher('/clock', Clock, queue_size=1, latch=True)
+
+        def set_clock(now):
+            publisher.publish(now)
+            time.sleep(0.2 * TIME_FACTOR)  # until it has arrived: nothing tells
+
+        try:
+            yield set_clock
+        finally:
+            publisher.unregister()
+            rospy.delete_param('/use_sim_time')
 
     def first_centroid(self, localizer, start, x, seconds):
         """Of a shell in the frame map, along x; its origin is at x in the frame room, from the start for two seconds."""

@@ -10,6 +10,7 @@
 #include <ros/spinner.h>
 #include <ros/subscriber.h>
 #include <ros/time.h>
+#include <ros/wall_timer.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 #include <Eigen/Geometry>
@@ -29,9 +30,10 @@ namespace grasp_affordances
 ///
 /// In place of tf2_ros::TransformListener, which forgets what it knows when the ROS clock is set back: with a looping
 /// bag that happens after the first transforms of the new round have arrived, and they would be lost (see TimeJumps).
-/// Its Buffer waits by the ROS clock, which may stand still. Here all is forgotten as soon as the ROS clock, or the
-/// stamps of a frame that lookup() was asked for, go back. Frames that nobody asked for have no say: two publishers
-/// with different clocks may share one of them.
+/// Its Buffer waits by the ROS clock, which may stand still. Here all is forgotten as soon as the ROS clock goes back
+/// to before what is known, or the stamps of a frame that lookup() was asked for go back. Frames that nobody asked for
+/// have no say: two publishers with different clocks may share one of them. When lookup() is first asked for one whose
+/// stamps went back before, all is forgotten then.
 class Transforms
 {
 public:
@@ -68,16 +70,19 @@ public:
 private:
   void receive(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool fixed);
   bool wentBack(const geometry_msgs::TransformStamped& transform);
-  bool clockWentBack();
+  void lookAtClock();
   void remember(const std::string& target, const std::string& source, const ros::Time& stamp);
+  void startAgain(const std::string& frame, const ros::Time& stamp);
   void forget();
 
   std::mutex mutex_;  // guards the following
   std::condition_variable changed_;
   tf2::BufferCore buffer_;
-  std::map<std::string, TimeJumps> streams_;  // of the moving transforms, by child frame
-  std::set<std::string> asked_;               // child frames between those that lookup() was asked for
-  ros::Time clock_;                           // the ROS clock when it was last looked at, where it is simulated
+  std::map<std::string, TimeJumps> streams_;   // of the moving transforms, by child frame
+  std::set<std::string> asked_;                // child frames between those that lookup() was asked for
+  std::map<std::string, ros::Time> returned_;  // of other child frames: the stamps that they went back to
+  ros::Time newest_;                           // of the moving transforms
+  ros::Time clock_;                            // the ROS clock when it was last looked at, where it is simulated
   Throttle refusals_;
   Throttle restarts_;
   bool restarted_ = false;
@@ -88,6 +93,7 @@ private:
   ros::CallbackQueue queue_;
   ros::Subscriber moving_;
   ros::Subscriber fixed_;
+  ros::WallTimer clock_watch_;
   ros::AsyncSpinner spinner_;
 };
 
