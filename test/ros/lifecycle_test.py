@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """Start, refusal to start and end of the localizer, as a plain node and as a nodelet."""
 
+import contextlib
 import os
+import re
 import signal
 import time
 import unittest
@@ -9,10 +11,11 @@ import unittest
 import rosgraph
 import rospy
 import rostest
+from sensor_msgs.msg import Image, PointCloud2
 
 from grasp_affordances.msg import LocalizationStatistics
 from grasp_affordances.srv import LocalizeNext
-from helpers import ABNORMAL_ENDS, Listener, Process, manager, publisher, scene, wait_until
+from helpers import ABNORMAL_ENDS, Listener, Process, cloud, manager, publisher, scene, wait_until
 
 BAD_PARAMETERS = (('hand/capture_radius', 0.7, '[0.002, 0.5] m'),
                   ('sampling/samples', 12.5, 'an integer in [1, 1000000]'),
@@ -142,16 +145,50 @@ class Lifecycle(unittest.TestCase):
             rospy.delete_param('pcd_publisher')
 
     def test_says_why_no_clouds_arrive(self):
-        listener = Listener('localizer/statistics', LocalizationStatistics)
-        with publisher(scene('table'), rate=5, topic='elsewhere'), localizer() as node:
-            complaint = 'no clouds arrive on /points (nobody publishes there; topics with clouds: /elsewhere)'
-            wait_until(lambda: complaint in node.output(), 'complaint')
-        with publisher(scene('table')), localizer() as node:
-            listener.wait()
-            # One cloud may be all that there is.
-            time.sleep(6)
-            self.assertNotIn('no clouds arrive', node.output())
-        listener.close()
+        clouds = {topic: rospy.Publisher(topic, PointCloud2, queue_size=1, latch=topic == 'once')
+                  for topic in ('elsewhere', 'mute', 'once', 'slow')}
+        image = rospy.Publisher('pictures', Image, queue_size=1)
+        master = rosgraph.Master('/ghost')
+        nobody = 'http://127.0.0.1:9/'
+        master.registerPublisher('/haunted', 'sensor_msgs/PointCloud2', nobody)
+        clouds['once'].publish(cloud())
+        reasons = {'nowhere': r'nobody publishes there; topics with clouds: [^)]*/elsewhere\b',
+                   'pictures': r'its type is sensor_msgs/Image, published by %s, but sensor_msgs/PointCloud2 is '
+                               r'needed; topics with clouds: [^)]*/elsewhere\b' % rospy.get_name(),
+                   'haunted': r'registered but not connected: /ghost; is it alive, is ROS_IP/ROS_HOSTNAME right\?\)',
+                   'mute': r'its publisher %s sends nothing\)' % rospy.get_name()}
+        with contextlib.ExitStack() as nodes:
+            outputs = {topic: nodes.enter_context(localizer('__name:=on_' + topic, 'points:=' + topic, '_lazy:=false'))
+                       for topic in (*reasons, 'once', 'slow')}
+            wait_until(lambda: clouds['slow'].get_num_connections() == 1, 'connection')
+            clouds['slow'].publish(cloud())
+            time.sleep(4)
+            clouds['slow'].publish(cloud())
+            for topic, reason in reasons.items():
+                complaint = r'no clouds arrive on /%s, none came in \d+ s \(%s' % (topic, reason)
+                wait_until(lambda: re.search(complaint, outputs[topic].output()), complaint)
+            # One cloud may be all that there is, and some cameras send few.
+            time.sleep(7)
+            for topic in ('once', 'slow'):
+                self.assertNotIn('no clouds arrive', outputs[topic].output())
+        master.unregisterPublisher('/haunted', nobody)
+        for topic in (image, *clouds.values()):
+            topic.unregister()
+
+    def test_says_when_a_driver_stops_and_when_it_dies(self):
+        with publisher(scene('table'), rate=5) as driver, localizer() as node:
+            listener = Listener('localizer/statistics', LocalizationStatistics)
+            wait_until(lambda: len(listener.messages()) > 5, 'answers')
+            complaint = r'no clouds arrive on /points, the last one came ([5-9]|1\d) s ago \(%s'
+            silent = complaint % r'its publisher /pcd_publisher sends nothing\)'
+            driver.signal(signal.SIGSTOP)
+            wait_until(lambda: re.search(silent, node.output()), silent)
+            dead = complaint % 'registered but not connected: /pcd_publisher; is it alive'
+            driver.signal(signal.SIGKILL)
+            wait_until(lambda: re.search(dead, node.output()), dead)
+            listener.close()
+        master = rosgraph.Master('/pcd_publisher')
+        master.unregisterPublisher('/points', master.lookupNode('/pcd_publisher'))
 
     def test_eager_node_subscribes_without_a_listener(self):
         with localizer('_lazy:=false'):

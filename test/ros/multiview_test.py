@@ -199,8 +199,14 @@ class Multiview(unittest.TestCase):
             self.connect(3)
             self.publish((0, 2), rospy.Time.now())
             wait_until(lambda: 'no clouds arrive on ' in node.output(), 'complaint')
-            self.assertRegex(node.output(), r'no clouds arrive on /points_2\b[^,]*$')
+            self.assertRegex(node.output(), r'no clouds arrive on /points_2, none came in 5 s [^,]*$')
             self.assertEqual(node.statistics.messages(), [])
+            # Each time, also where the others go on.
+            for _ in range(3):
+                time.sleep(1)
+                self.publish((0, 2), rospy.Time.now())
+            wait_until(lambda: 'no clouds arrive on /points_2, none came in 10 s' in node.output(), 'complaint')
+            self.assertNotIn('no clouds arrive on /points_1', node.output())
 
     def test_a_set_without_its_transforms_is_dropped_and_counted(self):
         with MultiCamera(2, '_target_frame:=nowhere', '_transform_timeout:=0.05') as node:

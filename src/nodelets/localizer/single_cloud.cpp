@@ -6,6 +6,8 @@
 
 #include <ros/console.h>
 
+#include <chrono>
+
 namespace grasp_affordances
 {
 
@@ -24,11 +26,11 @@ std::string SingleCloud::awaited() const
 
 void SingleCloud::subscribe(const Receiver& receiver)
 {
-  received_ = reported_ = 0;
+  pace_.begin(std::chrono::steady_clock::now());
   camera_info_.subscribe(node_handle_, camera_info_topic_);
   points_ = node_handle_.subscribe<sensor_msgs::PointCloud2>(
       points_topic_, kCloudQueue, gate_.guarded([this, receiver](const sensor_msgs::PointCloud2ConstPtr& message) {
-        ++received_;
+        pace_.arrive(std::chrono::steady_clock::now());
         if (time_jumps_.wentBack(message->header.stamp)) {
           receiver.time_is_back(message->header.stamp);
         }
@@ -47,10 +49,10 @@ void SingleCloud::unsubscribe()
 
 void SingleCloud::complainOfSilence()
 {
-  if (received_ == reported_ && received_ != 1) {
-    ROS_WARN_STREAM_NAMED(name_, "nothing is localized: no clouds arrive on " << describeSilence(points_));
+  const CloudPace::Time now = std::chrono::steady_clock::now();
+  if (pace_.isOverdue(now) && pace_.arrivals() != 1) {
+    ROS_WARN_STREAM_NAMED(name_, "nothing is localized: no clouds arrive on " << describeSilence(points_, pace_, now));
   }
-  reported_ = received_;
 }
 
 void SingleCloud::close()

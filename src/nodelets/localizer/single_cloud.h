@@ -3,6 +3,7 @@
 #include "grasp_affordances/cloud.h"
 #include "nodelets/localizer/camera_info_input.h"
 #include "nodelets/localizer/cloud_input.h"
+#include "nodelets/localizer/cloud_pace.h"
 #include "nodelets/roscpp/callback_gate.h"
 #include "nodelets/roscpp/ros_time.h"
 
@@ -10,7 +11,6 @@
 #include <ros/subscriber.h>
 #include <ros/wall_timer.h>
 
-#include <cstdint>
 #include <string>
 
 namespace grasp_affordances
@@ -18,7 +18,7 @@ namespace grasp_affordances
 
 /// The clouds of one camera. Subscribed, in the parent namespace of the node's name: points (sensor_msgs/PointCloud2)
 /// and camera_info (sensor_msgs/CameraInfo, optional). The common frame is that of the cloud. Warns where no cloud
-/// arrives, or no more; a single cloud may be all that somebody publishes.
+/// arrives, or no more, by the pace so far; a single cloud may be all that somebody publishes.
 class SingleCloud : public CloudInput
 {
 public:
@@ -42,8 +42,7 @@ private:
 
   // Of the callback for clouds and of the timer, which take turns.
   TimeJumps time_jumps_{ros::Duration(kDisorder)};
-  std::uint64_t received_ = 0;  // since it subscribed
-  std::uint64_t reported_ = 0;  // of these, before the timer's last call
+  CloudPace pace_;
 
   Cloud cloud_;        // of the worker's thread
   CallbackGate gate_;  // of clouds

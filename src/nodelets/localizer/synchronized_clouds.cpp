@@ -34,7 +34,7 @@ SynchronizedClouds::SynchronizedClouds(const ros::NodeHandle& node_handle, const
       sync_slop_(parameters.sync_slop),
       node_handle_(node_handle),
       synchronizer_(parameters.views, parameters.sync_slop, [this](const CloudSynchronizer::Set& clouds) {
-        any_set_ = true;
+        latest_set_ = std::chrono::steady_clock::now();
         receiver_.receive(clouds);
       })
 {
@@ -49,9 +49,9 @@ void SynchronizedClouds::subscribe(const Receiver& receiver)
 {
   receiver_ = receiver;
   synchronizer_.restart();
-  any_set_ = false;
+  latest_set_ = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    views_[i].newest.reset();
+    views_[i].pace.begin(latest_set_);
     views_[i].camera_info.subscribe(node_handle_, views_[i].camera_info_topic);
     views_[i].points = node_handle_.subscribe<sensor_msgs::PointCloud2>(
         views_[i].points_topic, kCloudQueue,
@@ -80,7 +80,8 @@ void SynchronizedClouds::receive(std::size_t view, const sensor_msgs::PointCloud
   if (views_[view].time_jumps.wentBack(message->header.stamp)) {
     startAgain(message->header.stamp);
   }
-  views_[view].newest = message;
+  views_[view].newest = message->header.stamp;
+  views_[view].pace.arrive(std::chrono::steady_clock::now());
   const ros::Time time = timeOf(view, message->header.stamp);
   synchronizer_.add(view, message, time);
 }
@@ -123,24 +124,36 @@ void SynchronizedClouds::forgetTimes()
 
 void SynchronizedClouds::complainOfSilence()
 {
-  std::string silent;
-  ros::Time earliest = ros::TIME_MAX, latest;
-  for (View& view : views_) {
-    if (view.newest) {
-      earliest = std::min(earliest, view.newest->header.stamp);
-      latest = std::max(latest, view.newest->header.stamp);
-    } else {
-      silent += (silent.empty() ? "" : ", ") + describeSilence(view.points);
-    }
-    view.newest.reset();
-  }
-  if (!silent.empty()) {
+  const CloudPace::Time now = std::chrono::steady_clock::now();
+  if (const std::string silent = silentCameras(now); !silent.empty()) {
     ROS_WARN_STREAM_NAMED(name_, "nothing is localized: no clouds arrive on " << silent);
-  } else if (const double difference = latest.toSec() - earliest.toSec(); !any_set_ && difference > sync_slop_) {
+    return;
+  }
+  ros::Time earliest = ros::TIME_MAX, latest;
+  double patience = 0.0;
+  for (const View& view : views_) {
+    earliest = std::min(earliest, view.newest);
+    latest = std::max(latest, view.newest);
+    patience = std::max(patience, view.pace.patience());
+  }
+  const bool sets_are_overdue = std::chrono::duration<double>(now - latest_set_).count() >= patience;
+  if (const double difference = latest.toSec() - earliest.toSec(); sets_are_overdue && difference > sync_slop_) {
     ROS_WARN_STREAM_NAMED(name_, "nothing is localized: the stamps of the newest clouds differ by "
                                      << difference << " s, which is more than sync_slop, " << sync_slop_ << " s");
   }
-  any_set_ = false;
+}
+
+/// Those whose clouds are overdue, joined by commas. One cloud of each camera may be all that there is.
+std::string SynchronizedClouds::silentCameras(CloudPace::Time now) const
+{
+  const bool go_on = std::any_of(views_.begin(), views_.end(), [](const View& any) { return any.pace.arrivals() > 1; });
+  std::string silent;
+  for (const View& view : views_) {
+    if (view.pace.isOverdue(now) && (go_on || view.pace.arrivals() == 0)) {
+      silent += (silent.empty() ? "" : ", ") + describeSilence(view.points, view.pace, now);
+    }
+  }
+  return silent;
 }
 
 /// Two sensors cannot be in one place. Clouds that were brought into a common frame before may share it.

@@ -3,6 +3,7 @@
 #include "grasp_affordances/cloud.h"
 #include "nodelets/localizer/camera_info_input.h"
 #include "nodelets/localizer/cloud_input.h"
+#include "nodelets/localizer/cloud_pace.h"
 #include "nodelets/parameters/parameters_ros.h"
 #include "nodelets/roscpp/callback_gate.h"
 #include "nodelets/roscpp/cloud_clock.h"
@@ -49,7 +50,8 @@ private:
     // Of the callbacks for clouds and of the timer, which take turns.
     TimeJumps time_jumps{ros::Duration(kDisorder)};
     CloudClock clock;
-    sensor_msgs::PointCloud2ConstPtr newest;  // since the timer's last call
+    CloudPace pace;
+    ros::Time newest;  // stamp
 
     Cloud cloud;  // of the worker's thread
   };
@@ -59,6 +61,7 @@ private:
   void forgetTimes();
   ros::Time timeOf(std::size_t view, const ros::Time& stamp);
   void complainOfSilence();
+  std::string silentCameras(CloudPace::Time now) const;
   void complainOfSharedFrames(const Clouds& messages);
 
   const std::string name_;
@@ -71,8 +74,8 @@ private:
   // Of the callbacks for clouds and of the timer.
   Receiver receiver_;
   CloudSynchronizer synchronizer_;
-  bool any_set_ = false;     // since the timer's last call
-  bool by_arrival_ = false;  // are the clouds put together
+  CloudPace::Time latest_set_;  // or when it subscribed
+  bool by_arrival_ = false;     // are the clouds put together
 
   Throttle shared_frames_;  // of the worker's thread
 
