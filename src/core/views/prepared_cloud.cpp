@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
+#include <limits>
 #include <sstream>
 
 namespace grasp_affordances
@@ -18,6 +20,13 @@ SphereView unseen(const Neighborhood& neighborhood)
   SphereSurvey survey{};
   survey.points = neighborhood.size();
   return {neighborhood.center, neighborhood.radius, PixelWindow{}, survey};
+}
+
+float median(std::vector<float> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 /// What is left out without the sensor's place, and how to give it.
@@ -69,8 +78,6 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
       return;
     }
   }
-  suspectUnit();
-
   findWorkspace(config.workspace, T_workspace_cloud, team);
   image = usable_.image();
   std::string warning = usable_.whyNoImage();
@@ -90,6 +97,8 @@ void PreparedCloud::update(const Cloud& new_cloud, const Config& config, const E
           "are continued, and samples are drawn from all points";
     }
   }
+  suspectUnit();
+  suspectPrecision(config.hand.finger_thickness);
   if (!warning.empty()) {
     warnings.push_back(warning);
   }
@@ -126,21 +135,64 @@ bool PreparedCloud::allCoincide() const
   return std::all_of(measured.begin(), measured.end(), [&](std::uint32_t i) { return cloud->point(i) == first; });
 }
 
-/// Warns where nearly all points are so far away that no hand reaches them.
+/// Of some points, evenly from the list of those measured: by coordinate.
+std::array<std::vector<float>, 3> PreparedCloud::someCoordinates() const
+{
+  constexpr std::size_t kPoints = 256;
+  std::array<std::vector<float>, 3> coordinates;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const Eigen::Vector3f point = cloud->point(measured[i * measured.size() / kPoints]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      coordinates[axis].push_back(point[static_cast<Eigen::Index>(axis)]);
+    }
+  }
+  return coordinates;
+}
+
+/// Warns where nearly all points are so far from the sensor, or from their middle where its place is not known, that no
+/// hand reaches them.
 void PreparedCloud::suspectUnit()
 {
   constexpr float kFar = 50.0F;  // m
-  constexpr std::size_t kPoints = 256;
-  std::array<float, kPoints> ranges;
-  for (std::size_t i = 0; i < kPoints; ++i) {
-    ranges[i] = cloud->point(measured[i * measured.size() / kPoints]).norm();
+  const std::array<std::vector<float>, 3> coordinates = someCoordinates();
+  Eigen::Vector3f from;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    from[static_cast<Eigen::Index>(axis)] = median(coordinates[axis]);
+  }
+  if (sensor) {
+    from = sensor->cast<float>();
+  }
+  std::vector<float> ranges;
+  for (std::size_t i = 0; i < coordinates[0].size(); ++i) {
+    ranges.push_back((Eigen::Vector3f(coordinates[0][i], coordinates[1][i], coordinates[2][i]) - from).norm());
   }
   std::sort(ranges.begin(), ranges.end());
-  if (ranges[kPoints / 20] > kFar) {
+  if (ranges[ranges.size() / 20] > kFar) {
     std::ostringstream text;
     text.precision(3);
-    text << "nearly all points are farther than " << kFar << " m from the origin, half of them farther than "
-         << ranges[kPoints / 2] << " m: coordinates must be in metres; are they in millimetres?";
+    text << "nearly all points are farther than " << kFar << " m from " << (sensor ? "the sensor" : "their middle")
+         << ", half of them farther than " << ranges[ranges.size() / 2]
+         << " m: coordinates must be in metres; are they in millimetres?";
+    warnings.push_back(text.str());
+  }
+}
+
+/// Warns where coordinates are too large for single precision to tell the width of a gap. With steps of a half of the
+/// finger's thickness the handles of simulated tables are still found, with steps of all of it half are lost.
+void PreparedCloud::suspectPrecision(double finger_thickness)
+{
+  constexpr double kShare = 0.1;
+  float farthest = 0.0F;
+  for (std::vector<float>& values : someCoordinates()) {
+    farthest = std::max(farthest, std::abs(median(values)));
+  }
+  const double step = static_cast<double>(std::nextafter(farthest, std::numeric_limits<float>::infinity())) - farthest;
+  if (step > kShare * finger_thickness) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "coordinates of some " << farthest << " m have steps of " << 1e3 * step
+         << " mm in single precision, and the finger is " << 1e3 * finger_thickness
+         << " mm thick: move the cloud nearer to the origin, before it is stored in single precision";
     warnings.push_back(text.str());
   }
 }

@@ -16,6 +16,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -78,7 +79,9 @@ private:
   void leaveOut(NothingSampled reason);
   void listMeasured();
   bool allCoincide() const;
+  std::array<std::vector<float>, 3> someCoordinates() const;
   void suspectUnit();
+  void suspectPrecision(double finger_thickness);
   void findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
 
   UsableCloud usable_;

@@ -305,28 +305,52 @@ TEST(UsableCloud, KeepsWhatStandsNearInACloudThatWasMovedALittle)
   EXPECT_NE(usable.whyNoImage().find("moved out of its optical frame"), std::string::npos) << usable.whyNoImage();
 }
 
+bool isWarned(const Cloud& cloud, const std::string& part)
+{
+  const Localization result = Localizer().localize(cloud);
+  return std::any_of(result.warnings.begin(), result.warnings.end(),
+                     [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
+}
+
 TEST(Localizer, SuspectsMillimetres)
 {
-  const auto isSuspected = [](const Localization& result) {
-    return std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& warning) {
-      return warning.find("are they in millimetres?") != std::string::npos;
-    });
-  };
+  const auto isSuspected = [](const Cloud& cloud) { return isWarned(cloud, "are they in millimetres?"); };
   Cloud cloud = table();
-  Localizer localizer;
-  EXPECT_FALSE(isSuspected(localizer.localize(cloud)));
+  EXPECT_FALSE(isSuspected(cloud));
   for (std::vector<float>* coordinates : {&cloud.x, &cloud.y, &cloud.z}) {
     for (float& value : *coordinates) {
       value *= 1000.0F;
     }
   }
-  EXPECT_TRUE(isSuspected(localizer.localize(cloud)));
-  EXPECT_TRUE(isSuspected(localizer.localize(unorganized(cloud))));
+  EXPECT_TRUE(isSuspected(cloud));
+  Cloud points = unorganized(cloud);
+  EXPECT_TRUE(isSuspected(points));
+  points.sensor_origin.reset();
+  EXPECT_TRUE(isSuspected(points));
   // A wall far away behind a near object, which is a quarter of the points, is no reason.
   for (std::size_t i = 0; i < cloud.size(); i += 4) {
     cloud.set(i, cloud.x[i] / 1000.0F, cloud.y[i] / 1000.0F, cloud.z[i] / 1000.0F);
   }
-  EXPECT_FALSE(isSuspected(localizer.localize(cloud)));
+  EXPECT_FALSE(isSuspected(cloud));
+}
+
+/// Far from the origin of a map is not far from the sensor, nor from one another.
+TEST(Localizer, SuspectsNoUnitOfACloudInTheFrameOfAMap)
+{
+  Cloud cloud = moved(unorganized(table()), Eigen::Isometry3d(Eigen::Translation3d(4000.0, 3000.0, 0.0)));
+  EXPECT_FALSE(isWarned(cloud, "millimetres?"));
+  cloud.sensor_origin.reset();
+  EXPECT_FALSE(isWarned(cloud, "millimetres?"));
+}
+
+TEST(Localizer, WarnsWhereSinglePrecisionIsTooCoarseForTheHand)
+{
+  const auto at = [](double x) {
+    return moved(unorganized(table()), Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)));
+  };
+  EXPECT_FALSE(isWarned(table(), "single precision"));
+  EXPECT_FALSE(isWarned(at(5000.0), "single precision"));
+  EXPECT_TRUE(isWarned(at(500000.0), "steps of 31.2 mm in single precision"));
 }
 
 }  // namespace
