@@ -22,11 +22,31 @@ SphereView unseen(const Neighborhood& neighborhood)
   return {neighborhood.center, neighborhood.radius, PixelWindow{}, survey};
 }
 
-float median(std::vector<float> values)
+constexpr std::size_t kSomePoints = 256;  // which say where and how large a cloud is
+using Numbers = std::array<float, kSomePoints>;
+
+/// Of some points, evenly from the list of those measured: by coordinate.
+std::array<Numbers, 3> someCoordinates(const Cloud& cloud, const std::vector<std::uint32_t>& measured)
 {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  std::array<Numbers, 3> coordinates;
+  for (std::size_t i = 0; i < kSomePoints; ++i) {
+    const Eigen::Vector3f point = cloud.point(measured[i * measured.size() / kSomePoints]);
+    for (std::size_t axis = 0; axis < coordinates.size(); ++axis) {
+      coordinates[axis][i] = point[static_cast<Eigen::Index>(axis)];
+    }
+  }
+  return coordinates;
+}
+
+Eigen::Vector3f middleOf(const std::array<Numbers, 3>& coordinates)
+{
+  Eigen::Vector3f middle;
+  for (std::size_t axis = 0; axis < coordinates.size(); ++axis) {
+    Numbers values = coordinates[axis];
+    std::nth_element(values.begin(), values.begin() + kSomePoints / 2, values.end());
+    middle[static_cast<Eigen::Index>(axis)] = values[kSomePoints / 2];
+  }
+  return middle;
 }
 
 /// What is left out without the sensor's place, and how to give it.
@@ -135,36 +155,16 @@ bool PreparedCloud::allCoincide() const
   return std::all_of(measured.begin(), measured.end(), [&](std::uint32_t i) { return cloud->point(i) == first; });
 }
 
-/// Of some points, evenly from the list of those measured: by coordinate.
-std::array<std::vector<float>, 3> PreparedCloud::someCoordinates() const
-{
-  constexpr std::size_t kPoints = 256;
-  std::array<std::vector<float>, 3> coordinates;
-  for (std::size_t i = 0; i < kPoints; ++i) {
-    const Eigen::Vector3f point = cloud->point(measured[i * measured.size() / kPoints]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      coordinates[axis].push_back(point[static_cast<Eigen::Index>(axis)]);
-    }
-  }
-  return coordinates;
-}
-
 /// Warns where nearly all points are so far from the sensor, or from their middle where its place is not known, that no
 /// hand reaches them.
 void PreparedCloud::suspectUnit()
 {
   constexpr float kFar = 50.0F;  // m
-  const std::array<std::vector<float>, 3> coordinates = someCoordinates();
-  Eigen::Vector3f from;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    from[static_cast<Eigen::Index>(axis)] = median(coordinates[axis]);
-  }
-  if (sensor) {
-    from = sensor->cast<float>();
-  }
-  std::vector<float> ranges;
-  for (std::size_t i = 0; i < coordinates[0].size(); ++i) {
-    ranges.push_back((Eigen::Vector3f(coordinates[0][i], coordinates[1][i], coordinates[2][i]) - from).norm());
+  const std::array<Numbers, 3> coordinates = someCoordinates(*cloud, measured);
+  const Eigen::Vector3f from = sensor ? Eigen::Vector3f(sensor->cast<float>()) : middleOf(coordinates);
+  Numbers ranges;
+  for (std::size_t i = 0; i < kSomePoints; ++i) {
+    ranges[i] = (Eigen::Vector3f(coordinates[0][i], coordinates[1][i], coordinates[2][i]) - from).norm();
   }
   std::sort(ranges.begin(), ranges.end());
   if (ranges[ranges.size() / 20] > kFar) {
@@ -178,14 +178,12 @@ void PreparedCloud::suspectUnit()
 }
 
 /// Warns where coordinates are too large for single precision to tell the width of a gap. With steps of a half of the
-/// finger's thickness the handles of simulated tables are still found, with steps of all of it half are lost.
+/// finger's thickness the handles of simulated tables are still found, with steps of all of it a third to a half are
+/// not.
 void PreparedCloud::suspectPrecision(double finger_thickness)
 {
   constexpr double kShare = 0.1;
-  float farthest = 0.0F;
-  for (std::vector<float>& values : someCoordinates()) {
-    farthest = std::max(farthest, std::abs(median(values)));
-  }
+  const float farthest = middleOf(someCoordinates(*cloud, measured)).cwiseAbs().maxCoeff();
   const double step = static_cast<double>(std::nextafter(farthest, std::numeric_limits<float>::infinity())) - farthest;
   if (step > kShare * finger_thickness) {
     std::ostringstream text;

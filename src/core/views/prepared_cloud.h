@@ -16,7 +16,6 @@
 
 #include <Eigen/Geometry>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -79,7 +78,6 @@ private:
   void leaveOut(NothingSampled reason);
   void listMeasured();
   bool allCoincide() const;
-  std::array<std::vector<float>, 3> someCoordinates() const;
   void suspectUnit();
   void suspectPrecision(double finger_thickness);
   void findWorkspace(const WorkspaceConfig& workspace, const Eigen::Isometry3d& T_workspace_cloud, ThreadTeam& team);
