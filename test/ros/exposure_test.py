@@ -133,7 +133,7 @@ class Exposure(unittest.TestCase):
         for text in self.texts:
             for topic, one in publishers.items():
                 one.publish(cloud(frame=text) if topic == points else fill(one.data_class(), text))
-            answers.wait(lambda answer: answer.header.frame_id == text)
+            answers.wait(lambda answer: answer.header.frame_id == text.lstrip('/'))
         answers.close()
         for one in publishers.values():
             one.unregister()
