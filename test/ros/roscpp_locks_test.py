@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Starts and ends in whose course roscpp 1.15.9 waits for itself, unless our nodelets call it in another order.
+"""Starts and ends in whose course roscpp 1.15.9 waits for itself, or nodelet drops what arrives, unless our nodelets call
+them in another order.
 
 ~repetitions: of the end of a manager.
 """
@@ -18,18 +19,23 @@ import rosgraph
 import rospy
 import rostest
 
-from helpers import Nodelets, Process, manager, wait_until
+from grasp_affordances.msg import LocalizationStatistics
+
+from helpers import Listener, Nodelets, Process, manager, publisher, scene, wait_until
 
 
-class DroppingMaster(http.server.ThreadingHTTPServer):
-    """Hands calls on to the master, but for the first ones that set parameters: those are dropped unanswered. roscpp asks
-    twice before it says so."""
+class BadMaster(http.server.ThreadingHTTPServer):
+    """Hands calls on to the master, but for the first ones that set parameters, which it may drop unanswered: roscpp asks
+    twice before it says so. The registration of one service may take long."""
 
     daemon_threads = True
 
-    def __init__(self, drops):
+    def __init__(self, drops=0, slow_service=None, seconds=0.0):
         super().__init__(('127.0.0.1', 0), Call)
         self.drops = drops
+        self.slow_service = slow_service
+        self.seconds = seconds
+        self.is_slow = threading.Event()
         self._thread = threading.Thread(target=self.serve_forever, daemon=True)
         self._thread.start()
 
@@ -50,11 +56,14 @@ class Call(http.server.BaseHTTPRequestHandler):
 
     def do_POST(self):
         body = self.rfile.read(int(self.headers['Content-Length']))
-        _, method = xmlrpc.client.loads(body)
+        arguments, method = xmlrpc.client.loads(body)
         if method == 'setParam' and self.server.drops > 0:
             self.server.drops -= 1
             self.close_connection = True
             return
+        if method == 'registerService' and arguments[1] == self.server.slow_service:
+            self.server.is_slow.set()
+            time.sleep(self.server.seconds)
         master = urllib.parse.urlparse(rosgraph.get_master_uri())
         connection = http.client.HTTPConnection(master.hostname, master.port, timeout=10)
         connection.request('POST', '/RPC2', body, {'Content-Type': 'text/xml'})
@@ -77,12 +86,21 @@ def services():
 class RoscppLocks(unittest.TestCase):
     def test_a_node_starts_although_the_master_drops_what_it_sets(self):
         """roscpp logs that it could not reach the master."""
-        with DroppingMaster(drops=5) as master:
+        with BadMaster(drops=5) as master:
             with Process('grasp_affordances', 'localizer_node', environment=master.environment()) as node:
                 wait_until(lambda: '/localizer/best' in services(), 'services')
                 self.assertEqual(master.drops, 0)
                 self.assertEqual(rospy.get_param('localizer/reconfigure/sampling_samples'), 2000)
                 self.assertEqual(node.interrupt(), 0)
+
+    def test_a_listener_that_connects_while_a_nodelet_starts_is_answered(self):
+        """nodelet drops the callback that tells of it until the nodelet has started."""
+        with BadMaster(slow_service='/localizer/localize', seconds=2.0) as master, publisher(scene('table'), rate=10), \
+                Process('grasp_affordances', 'localizer_node', environment=master.environment()):
+            self.assertTrue(master.is_slow.wait(20))
+            listener = Listener('localizer/statistics', LocalizationStatistics)
+            self.assertGreater(listener.wait().sampled, 0)
+            listener.close()
 
     def test_a_manager_ends_that_is_interrupted_while_it_unloads(self):
         """Its shutdown waits for the unloading, which must not wait for the shutdown."""

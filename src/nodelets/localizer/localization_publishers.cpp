@@ -3,6 +3,7 @@
 #include "nodelets/messages/conversions.h"
 
 #include <geometry_msgs/PoseArray.h>
+#include <ros/init.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <boost/make_shared.hpp>
 
@@ -12,17 +13,21 @@
 namespace grasp_affordances
 {
 
-void LocalizationPublishers::advertise(ros::NodeHandle& private_node_handle, const std::string& name, double max_age,
-                                       const std::function<void()>& listeners_changed)
+void LocalizationPublishers::advertise(const ros::NodeHandle& private_node_handle, const std::string& name,
+                                       double max_age, const std::function<void()>& listeners_changed)
 {
   const auto changed =
       gate_.guarded([listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); });
-  shells_ = private_node_handle.advertise<CylindricalShellArray>("shells", 1, changed, changed);
-  handles_ = private_node_handle.advertise<HandleArray>("handles", 1, changed, changed);
-  hand_poses_ = private_node_handle.advertise<geometry_msgs::PoseArray>("hand_poses", 1, changed, changed);
-  markers_ = private_node_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
-  statistics_ = private_node_handle.advertise<LocalizationStatistics>("statistics", 1, changed, changed);
-  selection_.advertise(private_node_handle, name, max_age, gate_.guarded(listeners_changed));
+  // Until onInit() has returned, nodelet disables the queues of a nodelet, and roscpp drops what is to be called back
+  // by them: of a listener that connects just then the nodelet would never hear.
+  ros::NodeHandle outputs(private_node_handle);
+  outputs.setCallbackQueue(ros::getGlobalCallbackQueue());
+  shells_ = outputs.advertise<CylindricalShellArray>("shells", 1, changed, changed);
+  handles_ = outputs.advertise<HandleArray>("handles", 1, changed, changed);
+  hand_poses_ = outputs.advertise<geometry_msgs::PoseArray>("hand_poses", 1, changed, changed);
+  markers_ = outputs.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
+  statistics_ = outputs.advertise<LocalizationStatistics>("statistics", 1, changed, changed);
+  selection_.advertise(outputs, name, max_age, gate_.guarded(listeners_changed));
 }
 
 bool LocalizationPublishers::anybodyListens() const

@@ -54,7 +54,7 @@ public:
   /// @param max_age  see HandleSelection::advertise()
   /// @param listeners_changed  called, from any thread, when somebody begins or ceases to listen; also before
   /// advertise() has returned
-  void advertise(ros::NodeHandle& private_node_handle, const std::string& name, double max_age,
+  void advertise(const ros::NodeHandle& private_node_handle, const std::string& name, double max_age,
                  const std::function<void()>& listeners_changed);
 
   /// Whether anybody listens to an output. From any thread, after advertise().

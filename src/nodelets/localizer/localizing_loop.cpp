@@ -74,17 +74,18 @@ void LocalizingLoop::start(ros::NodeHandle& node_handle, ros::NodeHandle& privat
   reconfiguration_.advertise(private_node_handle, name, parameters.config);
   worker_ = std::make_unique<NewestOnlyWorker<Arrival>>([this](const Arrival& arrival) { process(arrival); });
   publishers_.advertise(private_node_handle, name, longestAge(parameters), [this] { demand_.update(); });
-  const CloudInput::Receiver receiver{[this](const CloudInput::Clouds& clouds) { receive(clouds); },
-                                      [this](const ros::Time& stamp) { startAgain(stamp); }};
-  demand_.open(name,
-               {parameters.lazy, parameters.on_demand, [this] { return publishers_.anybodyListens(); },
-                [this, receiver] { setup_.input->subscribe(receiver); }, [this] { setup_.input->unsubscribe(); }});
   trigger_.advertise(private_node_handle, setup_.input->awaited(),
                      [this](bool needed) { return demand_.demand(needed); });
   if (setup_.offers_localize) {
     localize_service_.advertise(private_node_handle, reconfiguration_,
                                 [this](const Config& config) { return makeLocalizer(config); });
   }
+  const CloudInput::Receiver receiver{[this](const CloudInput::Clouds& clouds) { receive(clouds); },
+                                      [this](const ros::Time& stamp) { startAgain(stamp); }};
+  // Last, shortly before onInit() returns: nodelet drops what arrives until then.
+  demand_.open(name,
+               {parameters.lazy, parameters.on_demand, [this] { return publishers_.anybodyListens(); },
+                [this, receiver] { setup_.input->subscribe(receiver); }, [this] { setup_.input->unsubscribe(); }});
 }
 
 /// ROS tells nobody who waits for a service that the node ends. So the work is given up then.
