@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Starts and ends in whose course roscpp 1.15.9 waits for itself, or nodelet drops what arrives, unless our nodelets call
+"""Starts and ends in whose course roscpp 1.15.9 waits for itself, or nodelet 1.10 drops what arrives, unless our nodelets call
 them in another order.
 
 ~repetitions: of the end of a manager.
@@ -94,13 +94,16 @@ class RoscppLocks(unittest.TestCase):
                 self.assertEqual(node.interrupt(), 0)
 
     def test_a_listener_that_connects_while_a_nodelet_starts_is_answered(self):
-        """nodelet drops the callback that tells of it until the nodelet has started."""
+        """nodelet 1.10 drops the callback that tells of it until the nodelet has started."""
         with BadMaster(slow_service='/localizer/localize', seconds=2.0) as master, publisher(scene('table'), rate=10), \
-                Process('grasp_affordances', 'localizer_node', environment=master.environment()):
+                manager(master.environment()):
+            loading = threading.Thread(target=Nodelets().load, args=('/localizer', 'LocalizerNodelet'), daemon=True)
+            loading.start()
             self.assertTrue(master.is_slow.wait(20))
             listener = Listener('localizer/statistics', LocalizationStatistics)
             self.assertGreater(listener.wait().sampled, 0)
             listener.close()
+            loading.join()
 
     def test_a_manager_ends_that_is_interrupted_while_it_unloads(self):
         """Its shutdown waits for the unloading, which must not wait for the shutdown."""

@@ -18,7 +18,7 @@ void LocalizationPublishers::advertise(const ros::NodeHandle& private_node_handl
 {
   const auto changed =
       gate_.guarded([listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); });
-  // Until onInit() has returned, nodelet disables the queues of a nodelet, and roscpp drops what is to be called back
+  // Until onInit() has returned, nodelet 1.10 disables the queues of a nodelet, and roscpp drops what is called back
   // by them: of a listener that connects just then the nodelet would never hear.
   ros::NodeHandle outputs(private_node_handle);
   outputs.setCallbackQueue(ros::getGlobalCallbackQueue());

@@ -82,7 +82,7 @@ void LocalizingLoop::start(ros::NodeHandle& node_handle, ros::NodeHandle& privat
   }
   const CloudInput::Receiver receiver{[this](const CloudInput::Clouds& clouds) { receive(clouds); },
                                       [this](const ros::Time& stamp) { startAgain(stamp); }};
-  // Last, shortly before onInit() returns: nodelet drops what arrives until then.
+  // Last, shortly before onInit() returns: nodelet 1.10 drops what arrives until then.
   demand_.open(name,
                {parameters.lazy, parameters.on_demand, [this] { return publishers_.anybodyListens(); },
                 [this, receiver] { setup_.input->subscribe(receiver); }, [this] { setup_.input->unsubscribe(); }});
