@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Starts and ends in whose course roscpp 1.15.9 waits for itself, or nodelet 1.10 drops what arrives, unless our nodelets call
-them in another order.
+"""Starts and ends in whose course roscpp 1.15.9 waits for itself, or nodelet 1.10 drops what arrives, unless our
+nodelets call them in another order.
 
 ~repetitions: of the end of a manager.
 """
@@ -25,8 +25,8 @@ from helpers import Listener, Nodelets, Process, manager, publisher, scene, wait
 
 
 class BadMaster(http.server.ThreadingHTTPServer):
-    """Hands calls on to the master, but for the first ones that set parameters, which it may drop unanswered: roscpp asks
-    twice before it says so. The registration of one service may take long."""
+    """Hands calls on to the master. The first ones that set parameters may be dropped unanswered: roscpp asks twice
+    before it says so. The registration of one service may take long."""
 
     daemon_threads = True
 
