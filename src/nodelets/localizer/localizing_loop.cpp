@@ -52,8 +52,8 @@ LocalizingLoop::~LocalizingLoop()
   worker_.reset();
 }
 
-void LocalizingLoop::start(ros::NodeHandle& node_handle, ros::NodeHandle& private_node_handle, const std::string& name,
-                           const std::function<Setup()>& set_up)
+void LocalizingLoop::start(ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle,
+                           const std::string& name, const std::function<Setup()>& set_up)
 {
   name_ = name;
   transforms_ = std::make_unique<Transforms>(node_handle);

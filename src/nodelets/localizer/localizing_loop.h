@@ -63,7 +63,7 @@ public:
   /// @param set_up  reads the parameters and makes the input; called when no other node of this name is left in the
   /// process
   /// @throw what `set_up` throws, such as ParameterError, and std::runtime_error; it has then been logged
-  void start(ros::NodeHandle& node_handle, ros::NodeHandle& private_node_handle, const std::string& name,
+  void start(ros::NodeHandle& node_handle, const ros::NodeHandle& private_node_handle, const std::string& name,
              const std::function<Setup()>& set_up);
 
 private:
