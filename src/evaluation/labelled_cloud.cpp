@@ -35,12 +35,12 @@ LabelledCloud render(const std::string& scene, std::uint64_t seed, const GraspDe
     views.push_back(viewFromAside(view, turn));
     cameras.push_back(views.back().T_scene_camera);
   }
-  const Xtion xtion;
+  const DepthCamera camera;
   LabelledCloud labelled;
   labelled.capture_radius = definition.capture_radius;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    Frame frame = xtion.capture(views[i].scene, cameras[i], seed + i * kNoiseOfNextView);
-    GroundTruth truth = groundTruth(views[i], frame, xtion.model(), definition, cameras);
+    Frame frame = camera.capture(views[i].scene, cameras[i], seed + i * kNoiseOfNextView);
+    GroundTruth truth = groundTruth(views[i], frame, camera.model(), definition, cameras);
     if (i == 0) {
       labelled.cloud = std::move(frame.cloud);
       labelled.labels = std::move(truth.labels);

@@ -191,7 +191,7 @@ bool Arrangement::inRange(const Body& body) const
 
 bool Arrangement::inPicture(const Body& body) const
 {
-  const XtionModel model;
+  const SensorModel model;
   const Eigen::Isometry3d T_camera_scene = view_.T_scene_camera.inverse();
   const auto inside = std::count_if(body.points.begin(), body.points.end(), [&](const Eigen::Vector3d& point) {
     const Eigen::Vector3d p = T_camera_scene * point;

@@ -23,7 +23,7 @@ Eigen::Vector3d directionThrough(const PinholeIntrinsics& camera, double column,
   return {(column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0};
 }
 
-std::vector<std::uint32_t> labelsOfPixels(const View& view, const Frame& frame, const XtionModel& model,
+std::vector<std::uint32_t> labelsOfPixels(const View& view, const Frame& frame, const SensorModel& model,
                                           const GripLabels& labels)
 {
   std::vector<Eigen::Isometry3d> T_shape_camera;
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> labelsOfPixels(const View& view, const Frame& frame, 
 }
 
 /// The pixels to which spheres along a grip's axis can project.
-Eigen::AlignedBox2d imageOf(const Grip& grip, const Eigen::Isometry3d& T_camera_scene, const XtionModel& model)
+Eigen::AlignedBox2d imageOf(const Grip& grip, const Eigen::Isometry3d& T_camera_scene, const SensorModel& model)
 {
   const PinholeIntrinsics& camera = model.intrinsics;
   const Eigen::AlignedBox2d image(Eigen::Vector2d::Zero(), Eigen::Vector2d(model.width - 1, model.height - 1));
@@ -91,7 +91,7 @@ double firstHit(const View& view, const GripLabels& labels, const Grip& grip, co
 }
 
 double occludedShare(const View& view, const RayCaster& everything, const GripLabels& labels, const Grip& grip,
-                     const XtionModel& model)
+                     const SensorModel& model)
 {
   const Eigen::AlignedBox2d box = imageOf(grip, view.T_scene_camera.inverse(), model);
   if (box.isEmpty())
@@ -115,7 +115,7 @@ double occludedShare(const View& view, const RayCaster& everything, const GripLa
 
 }  // namespace
 
-GroundTruth groundTruth(const View& view, const Frame& frame, const XtionModel& model,
+GroundTruth groundTruth(const View& view, const Frame& frame, const SensorModel& model,
                         const GraspDefinition& definition, const std::vector<Eigen::Isometry3d>& other_cameras)
 {
   const Eigen::Isometry3d T_camera_scene = view.T_scene_camera.inverse();

@@ -49,7 +49,7 @@ struct GroundTruth
 /// @param other_cameras  poses in the scene of further sensors of that model. The margin is the largest one of all
 /// sensors, so that an affordance has the same label in all views
 /// @throw std::length_error for a scene with more than 254 affordances
-GroundTruth groundTruth(const View& view, const Frame& frame, const XtionModel& model,
+GroundTruth groundTruth(const View& view, const Frame& frame, const SensorModel& model,
                         const GraspDefinition& definition = GraspDefinition(),
                         const std::vector<Eigen::Isometry3d>& other_cameras = {});
 

@@ -23,7 +23,7 @@ constexpr float kMetresPerUnit = 0.001F;  ///< unit of a depth image
 constexpr double kDeepest = 65.0;         ///< m; the limit of 16 bits is 65.5
 constexpr int kLargestJitter = 2;         ///< px; the header states this limit
 
-Frame emptyFrame(const XtionModel& model)
+Frame emptyFrame(const SensorModel& model)
 {
   Frame frame;
   frame.cloud.reset(model.width, model.height);
@@ -35,7 +35,7 @@ Frame emptyFrame(const XtionModel& model)
 }
 
 template <typename Task>
-void forEachPixel(const XtionModel& model, Task&& task)
+void forEachPixel(const SensorModel& model, Task&& task)
 {
   const auto width = static_cast<int>(model.width);
   forEachRow(static_cast<int>(model.height), [&](int row) {
@@ -46,7 +46,7 @@ void forEachPixel(const XtionModel& model, Task&& task)
 
 /// The surfaces that the sensor matches. Of a transparent surface: in some patches the surface itself, in others
 /// nothing, mostly what is behind it.
-SurfaceImage throughGlass(VisibleSurfaces visible, const XtionModel& model, std::uint64_t seed)
+SurfaceImage throughGlass(VisibleSurfaces visible, const SensorModel& model, std::uint64_t seed)
 {
   constexpr double patch_size = 12.0;    // px
   constexpr double reflects = 1.5;       // above this value: 7 % of the patches
@@ -109,7 +109,7 @@ private:
 };
 
 /// The reported depth in millimetres for a true depth; 0 if out of range.
-std::uint16_t reportedDepth(const XtionModel& model, double depth, double noise)
+std::uint16_t reportedDepth(const SensorModel& model, double depth, double noise)
 {
   const double focal_baseline = model.intrinsics.fx * model.baseline;
   const double disparity = focal_baseline / depth + model.disparity_noise * noise;
@@ -129,7 +129,7 @@ void setPoint(Cloud& cloud, std::size_t i, Pixel p, std::uint16_t depth)
             (static_cast<float>(p.row) - static_cast<float>(camera.cy)) * depth * y_per_unit, depth * kMetresPerUnit);
 }
 
-Frame exactFrame(const XtionModel& model, const Scene& scene, const SurfaceImage& surfaces,
+Frame exactFrame(const SensorModel& model, const Scene& scene, const SurfaceImage& surfaces,
                  const DisparityImage& disparity)
 {
   Frame frame = emptyFrame(model);
@@ -149,12 +149,12 @@ Frame exactFrame(const XtionModel& model, const Scene& scene, const SurfaceImage
 
 }  // namespace
 
-double XtionModel::depthQuantum(double depth_m) const
+double SensorModel::depthQuantum(double depth_m) const
 {
   return depth_m * depth_m / (intrinsics.fx * baseline) * disparity_step;
 }
 
-Xtion::Xtion(const XtionModel& model) : model_(model)
+DepthCamera::DepthCamera(const SensorModel& model) : model_(model)
 {
   if (model.width < 1 || model.height < 1 || model.window_width < 1 || model.window_height < 1)
     throw std::invalid_argument("the sensor's picture and matching window need at least one pixel");
@@ -164,7 +164,7 @@ Xtion::Xtion(const XtionModel& model) : model_(model)
     throw std::invalid_argument("the sensor's range must be within 0 and 65 m");
 }
 
-Frame Xtion::capture(const Scene& scene, const Eigen::Isometry3d& T_scene_camera, std::uint64_t seed) const
+Frame DepthCamera::capture(const Scene& scene, const Eigen::Isometry3d& T_scene_camera, std::uint64_t seed) const
 {
   const auto width = static_cast<int>(model_.width);
   const auto height = static_cast<int>(model_.height);

@@ -86,11 +86,11 @@ void drawApproach(Picture& picture, const Eigen::Isometry3d& frame)
 
 void draw(const std::string& path)
 {
-  XtionModel model;
+  SensorModel model;
   model.exact = true;
   model.min_depth = 0.05;
   const View view = barOnTable();
-  const Frame frame = Xtion(model).capture(view.scene, view.T_scene_camera, 1);
+  const Frame frame = DepthCamera(model).capture(view.scene, view.T_scene_camera, 1);
   const Eigen::Isometry3d T_camera_hand = view.T_scene_camera.inverse() * Eigen::Translation3d(0.0, 0.0, kGraspHeight);
 
   Picture picture(frame.cloud);

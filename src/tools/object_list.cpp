@@ -10,7 +10,7 @@ namespace grasp_affordances
 namespace
 {
 
-Json cameraJson(const View& view, const XtionModel& model)
+Json cameraJson(const View& view, const SensorModel& model)
 {
   const Eigen::Quaterniond orientation(view.T_scene_camera.linear());
   Json json;
@@ -52,7 +52,7 @@ Json affordanceJson(const Affordance& affordance)
 
 }  // namespace
 
-std::string objectList(const std::string& scene, std::uint64_t seed, const View& view, const XtionModel& model,
+std::string objectList(const std::string& scene, std::uint64_t seed, const View& view, const SensorModel& model,
                        const GraspDefinition& definition, const GroundTruth& truth)
 {
   Json json;

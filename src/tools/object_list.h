@@ -14,7 +14,7 @@ namespace grasp_affordances
 /// orientation quaternion x, y, z, w of its optical frame in the scene), the definition of an affordance, the objects
 /// by name in the order in which they were made, and the affordances with the fields of `Affordance`. Lengths in
 /// metres, in the scene's frame.
-std::string objectList(const std::string& scene, std::uint64_t seed, const View& view, const XtionModel& model,
+std::string objectList(const std::string& scene, std::uint64_t seed, const View& view, const SensorModel& model,
                        const GraspDefinition& definition, const GroundTruth& truth);
 
 /// A line of text per affordance.

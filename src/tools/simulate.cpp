@@ -155,8 +155,8 @@ int simulateMain(int argc, char** argv)
     std::cerr << "simulate: " << scene << ", seed " << seed << ": " << error.what() << '\n';
     return 1;
   }
-  const ga::XtionModel model;
-  const ga::Frame frame = ga::Xtion(model).capture(view.scene, view.T_scene_camera, seed + noise_seed);
+  const ga::SensorModel model;
+  const ga::Frame frame = ga::DepthCamera(model).capture(view.scene, view.T_scene_camera, seed + noise_seed);
   const ga::GroundTruth truth = ga::groundTruth(view, frame, model, definition);
 
   bool good = written(out, [&] { writeCloud(out, frame, view.T_scene_camera, truth.labels); });

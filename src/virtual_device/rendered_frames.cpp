@@ -10,7 +10,7 @@
 namespace grasp_affordances
 {
 
-std::vector<std::uint16_t> registeredDepth(const std::vector<std::uint16_t>& depth, const XtionModel& model)
+std::vector<std::uint16_t> registeredDepth(const std::vector<std::uint16_t>& depth, const SensorModel& model)
 {
   const auto width = static_cast<int>(model.width);
   const double focal_baseline = 1000.0 * model.intrinsics.fx * kColorBaseline;  // px mm
@@ -47,7 +47,7 @@ RenderedFrames::~RenderedFrames()
 
 void RenderedFrames::render()
 {
-  const XtionModel& model = xtion_.model();
+  const SensorModel& model = camera_.model();
   View color_view = view_;
   color_view.T_scene_camera.translate(Eigen::Vector3d(kColorBaseline, 0.0, 0.0));
   color_ = colorImage(color_view, model.intrinsics, model.width, model.height);
@@ -55,7 +55,7 @@ void RenderedFrames::render()
   for (std::size_t n = 0; n < frames_.size(); ++n) {
     if (closing_)
       return;
-    frames_[n].depth = xtion_.capture(view_.scene, view_.T_scene_camera, noise_seed + n).depth;
+    frames_[n].depth = camera_.capture(view_.scene, view_.T_scene_camera, noise_seed + n).depth;
     frames_[n].registered_depth = registeredDepth(frames_[n].depth, model);
   }
   ready_ = true;

@@ -19,7 +19,7 @@ constexpr double kColorBaseline = 0.025;
 
 /// Registers a depth image to the color camera: moves every pixel by the disparity between the cameras, to the nearest
 /// pixel. If two pixels meet, the nearer surface is kept. Pixels that the depth camera does not see are 0.
-std::vector<std::uint16_t> registeredDepth(const std::vector<std::uint16_t>& depth, const XtionModel& model);
+std::vector<std::uint16_t> registeredDepth(const std::vector<std::uint16_t>& depth, const SensorModel& model);
 
 /// The frames of a virtual device. A thread renders them. Safe to use from several threads.
 class RenderedFrames
@@ -35,7 +35,7 @@ public:
   RenderedFrames& operator=(const RenderedFrames&) = delete;
 
   const VirtualScene& scene() const { return scene_; }
-  const XtionModel& model() const { return xtion_.model(); }
+  const SensorModel& model() const { return camera_.model(); }
   std::size_t count() const { return frames_.size(); }
 
   /// Whether all frames are rendered. The other methods that return frames need this.
@@ -57,7 +57,7 @@ private:
 
   void render();
 
-  const Xtion xtion_;
+  const DepthCamera camera_;
   const VirtualScene scene_;
   const View view_;
   std::vector<DepthFrame> frames_;

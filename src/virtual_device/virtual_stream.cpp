@@ -187,7 +187,7 @@ OniStatus VirtualStream::setProperty(int id, const void* data, int size)
 OniStatus VirtualStream::getProperty(int id, void* data, int* size)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const XtionModel& model = device_.camera().frames->model();
+  const SensorModel& model = device_.camera().frames->model();
   switch (id) {
     case ONI_STREAM_PROPERTY_VIDEO_MODE:
       return answerProperty(mode_, data, size);

@@ -17,7 +17,7 @@ std::vector<NamedCloud> benchmarkClouds()
   }
   constexpr std::uint64_t kSeed = 101;
   const View view = makeScene("cleaning2", kSeed);
-  clouds.push_back({"cleaning2", Xtion().capture(view.scene, view.T_scene_camera, kSeed).cloud});
+  clouds.push_back({"cleaning2", DepthCamera().capture(view.scene, view.T_scene_camera, kSeed).cloud});
   return clouds;
 }
 

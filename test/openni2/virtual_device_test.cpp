@@ -23,7 +23,7 @@ constexpr int kFrames = 3;
 Frame simulated(std::uint64_t seed, int number)
 {
   const View view = makeScene("table", seed);
-  return Xtion().capture(view.scene, view.T_scene_camera, seed + number);
+  return DepthCamera().capture(view.scene, view.T_scene_camera, seed + number);
 }
 
 /// What the device sends of a simulated depth image: its last pixel is that beside it.
@@ -82,7 +82,7 @@ TEST_F(VirtualDeviceTest, TellsWhatAnXtionTells)
   EXPECT_TRUE(device.isImageRegistrationModeSupported(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR));
   EXPECT_FALSE(device.hasSensor(openni::SENSOR_IR));
 
-  const XtionModel model;
+  const SensorModel model;
   for (const openni::SensorType sensor : {openni::SENSOR_DEPTH, openni::SENSOR_COLOR}) {
     const auto& modes = device.getSensorInfo(sensor)->getSupportedVideoModes();
     ASSERT_EQ(modes.getSize(), 2);
@@ -137,11 +137,11 @@ TEST_F(VirtualDeviceTest, RegisteredDepthIsWhatTheColorCameraWouldMeasure)
   start(depth, device, openni::SENSOR_DEPTH);
   const std::vector<std::uint16_t> registered = receive(depth, 1).front().depth();
 
-  XtionModel exact;
+  SensorModel exact;
   exact.exact = true;
   View view = makeScene("table", 3);
   view.T_scene_camera.translate(Eigen::Vector3d(0.025, 0.0, 0.0));
-  const auto truth = Xtion(exact).capture(view.scene, view.T_scene_camera, 1).depth;
+  const auto truth = DepthCamera(exact).capture(view.scene, view.T_scene_camera, 1).depth;
   int compared = 0;
   int near = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -178,9 +178,9 @@ TEST_F(VirtualDeviceTest, ColorFramesAreTakenWithTheDepthFramesAndShowTheSameObj
   // One hue to an object.
   View view = makeScene("table", 3);
   view.T_scene_camera.translate(Eigen::Vector3d(0.025, 0.0, 0.0));
-  XtionModel exact;
+  SensorModel exact;
   exact.exact = true;
-  const Frame truth = Xtion(exact).capture(view.scene, view.T_scene_camera, 1);
+  const Frame truth = DepthCamera(exact).capture(view.scene, view.T_scene_camera, 1);
   std::vector<Eigen::Vector3d> hues(view.scene.objects().size(), Eigen::Vector3d::Zero());
   int of_that_hue = 0;
   int seen = 0;
@@ -222,7 +222,8 @@ TEST_F(VirtualDeviceTest, ACameraBesideLooksFromThereWithItsOwnNoise)
   openni::VideoStream depth;
   start(depth, device, openni::SENSOR_DEPTH);
   const View view = viewFromAside(makeScene("table", 3), kDegree * 30.0);
-  EXPECT_TRUE(receive(depth, 1).front().depth() == sent(Xtion().capture(view.scene, view.T_scene_camera, 3 + 7).depth));
+  EXPECT_TRUE(receive(depth, 1).front().depth() ==
+              sent(DepthCamera().capture(view.scene, view.T_scene_camera, 3 + 7).depth));
 }
 
 TEST_F(VirtualDeviceTest, AnUnpluggedDeviceIsReportedAndSilentAndCanBeOpenedOnceItIsBack)

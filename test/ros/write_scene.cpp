@@ -26,7 +26,7 @@ void writeScene(const std::string& scene, std::uint64_t seed, double turn_deg, s
                 const std::string& file)
 {
   const ga::View view = ga::viewFromAside(ga::makeScene(scene, seed), ga::kDegree * turn_deg);
-  const ga::Frame frame = ga::Xtion().capture(view.scene, view.T_scene_camera, seed + noise_seed);
+  const ga::Frame frame = ga::DepthCamera().capture(view.scene, view.T_scene_camera, seed + noise_seed);
   pcl::PointCloud<pcl::PointXYZL> cloud(frame.cloud.width, frame.cloud.height);
   for (std::size_t i = 0; i < frame.cloud.size(); ++i)
     cloud[i].getVector3fMap() = frame.cloud.point(i);

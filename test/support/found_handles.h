@@ -115,7 +115,7 @@ inline View mugView(const Mug& mug = Mug())
 
 inline Cloud capture(const View& view, std::uint64_t seed)
 {
-  return Xtion().capture(view.scene, view.T_scene_camera, seed).cloud;
+  return DepthCamera().capture(view.scene, view.T_scene_camera, seed).cloud;
 }
 
 /// In the frame of the scene.

@@ -22,16 +22,16 @@ namespace grasp_affordances::test
 using Pose = Eigen::Isometry3d;
 using Vector = Eigen::Vector3d;
 
-inline XtionModel exactSensor()
+inline SensorModel exactSensor()
 {
-  XtionModel model;
+  SensorModel model;
   model.exact = true;
   return model;
 }
 
 inline Cloud capture(const Scene& scene, const Pose& T_scene_camera = Pose::Identity())
 {
-  return Xtion(exactSensor()).capture(scene, T_scene_camera, 1).cloud;
+  return DepthCamera(exactSensor()).capture(scene, T_scene_camera, 1).cloud;
 }
 
 /// A straight handle with its middle at a point.

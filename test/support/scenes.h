@@ -21,15 +21,15 @@ struct LabelledFrame : Frame
   std::vector<std::uint32_t> labels;  ///< 0: not graspable, 1..: affordance, 255: doubtful
 };
 
-inline LabelledFrame captureView(const View& view, std::uint64_t seed, const XtionModel& model = XtionModel())
+inline LabelledFrame captureView(const View& view, std::uint64_t seed, const SensorModel& model = SensorModel())
 {
-  Frame frame = Xtion(model).capture(view.scene, view.T_scene_camera, seed);
+  Frame frame = DepthCamera(model).capture(view.scene, view.T_scene_camera, seed);
   std::vector<std::uint32_t> labels = groundTruth(view, frame, model).labels;
   return {std::move(frame), std::move(labels)};
 }
 
 /// A scene of the library as the virtual Xtion measures it.
-inline LabelledFrame captureScene(const std::string& name, std::uint64_t seed, const XtionModel& model = XtionModel())
+inline LabelledFrame captureScene(const std::string& name, std::uint64_t seed, const SensorModel& model = SensorModel())
 {
   return captureView(makeScene(name, seed), seed, model);
 }

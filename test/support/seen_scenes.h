@@ -25,11 +25,11 @@ inline Localization localizeViews(const Config& config, const std::vector<PosedC
 /// A scene as several cameras see it, which are turned about its vertical by so many degrees; noise differs.
 struct SeenScene
 {
-  SeenScene(const View& view, const std::vector<double>& turns, const XtionModel& model = XtionModel())
+  SeenScene(const View& view, const std::vector<double>& turns, const SensorModel& model = SensorModel())
   {
     for (const double turn : turns) {
       const View turned = viewFromAside(view, turn * M_PI / 180.0);
-      frames.push_back(Xtion(model).capture(turned.scene, turned.T_scene_camera, 1 + frames.size()));
+      frames.push_back(DepthCamera(model).capture(turned.scene, turned.T_scene_camera, 1 + frames.size()));
       T_scene_camera.push_back(turned.T_scene_camera);
     }
   }

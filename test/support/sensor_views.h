@@ -13,16 +13,16 @@
 namespace grasp_affordances::test
 {
 
-inline XtionModel exactModel()
+inline SensorModel exactModel()
 {
-  XtionModel model;
+  SensorModel model;
   model.exact = true;
   return model;
 }
 
-inline Frame capture(const View& view, std::uint64_t seed, const XtionModel& model = XtionModel())
+inline Frame capture(const View& view, std::uint64_t seed, const SensorModel& model = SensorModel())
 {
-  return Xtion(model).capture(view.scene, view.T_scene_camera, seed);
+  return DepthCamera(model).capture(view.scene, view.T_scene_camera, seed);
 }
 
 /// A plane through (0, 0, depth) in the camera's frame, faced to the camera and then turned about an axis.
@@ -54,7 +54,7 @@ inline double shareOfPart(const Frame& frame, std::int32_t part)
          static_cast<double>(frame.parts.size());
 }
 
-inline double focalBaseline(const XtionModel& model = XtionModel())
+inline double focalBaseline(const SensorModel& model = SensorModel())
 {
   return model.intrinsics.fx * model.baseline;
 }

@@ -30,7 +30,7 @@ struct TableViews
     const View view = makeScene("table", 1);
     for (const double turn : {0.0, M_PI / 2}) {
       const View turned = viewFromAside(view, turn);
-      clouds.push_back(Xtion().capture(turned.scene, turned.T_scene_camera, 1 + clouds.size()).cloud);
+      clouds.push_back(DepthCamera().capture(turned.scene, turned.T_scene_camera, 1 + clouds.size()).cloud);
       poses.push_back(turned.T_scene_camera);
     }
   }

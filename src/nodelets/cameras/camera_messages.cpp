@@ -71,7 +71,7 @@ sensor_msgs::CameraInfoPtr cameraInfoMessage(const PinholeIntrinsics& camera, st
   return message;
 }
 
-FrameMessages frameMessages(const Frame& frame, const XtionModel& model, const std_msgs::Header& header)
+FrameMessages frameMessages(const Frame& frame, const SensorModel& model, const std_msgs::Header& header)
 {
   return {cameraInfoMessage(model.intrinsics, model.width, model.height, header), depthMessage(frame, header),
           pointsMessage(frame.cloud, header)};

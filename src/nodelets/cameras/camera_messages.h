@@ -26,7 +26,7 @@ struct FrameMessages
   sensor_msgs::PointCloud2Ptr points;  ///< organized, float x y z in metres, NaN where nothing was measured
 };
 
-FrameMessages frameMessages(const Frame& frame, const XtionModel& model, const std_msgs::Header& header);
+FrameMessages frameMessages(const Frame& frame, const SensorModel& model, const std_msgs::Header& header);
 
 /// Gives the messages a new stamp, so that they can be published again. Subscribers in this process share published
 /// messages. If one of them still holds a message, that message is not changed: a copy with the new stamp replaces it

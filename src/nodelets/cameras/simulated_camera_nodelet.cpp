@@ -81,7 +81,7 @@ private:
   std::string optical_frame_;
   View view_;
   std::optional<CameraOrbit> orbit_;  // none: the camera stands still
-  const Xtion xtion_;
+  const DepthCamera camera_;
 
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> fixed_transforms_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> transforms_;
@@ -196,8 +196,8 @@ FrameMessages SimulatedCameraNodelet::render(const Shot& shot, std::uint64_t fra
   header.stamp = shot.stamp;
   header.frame_id = optical_frame_;
   const std::uint64_t seed = parameters_.seed + parameters_.noise_seed + frame_number;
-  const Frame frame = xtion_.capture(view_.scene, cameraPose(shot), seed);
-  return frameMessages(frame, xtion_.model(), header);
+  const Frame frame = camera_.capture(view_.scene, cameraPose(shot), seed);
+  return frameMessages(frame, camera_.model(), header);
 }
 
 void SimulatedCameraNodelet::renderAhead()

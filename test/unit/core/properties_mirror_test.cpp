@@ -63,7 +63,7 @@ TEST(Properties, AMirroredImageHasMirroredShells)
     if (property.seed % 2 == 0) {
       property.config.estimation.normals_mode = NormalsMode::sparse;
     }
-    const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
+    const Frame frame = DepthCamera().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     const Cloud cloud = cropped(frame.cloud, kColumns), mirrored_cloud = mirrored(cloud);
     const std::vector<std::uint32_t> points = somePoints(cloud, property.config, property.samples, property.random);
     std::vector<std::uint32_t> mirrored_points;

@@ -50,8 +50,8 @@ TEST(Properties, MovedViewsMoveTheirShellsAndHandles)
   forEachCase([&](PropertyCase property) {
     property.config.handles.min_score = 0.0;
     const View aside = viewFromAside(property.view, 0.7);
-    const Frame frames[] = {Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed),
-                            Xtion().capture(aside.scene, aside.T_scene_camera, property.seed + 1)};
+    const Frame frames[] = {DepthCamera().capture(property.view.scene, property.view.T_scene_camera, property.seed),
+                            DepthCamera().capture(aside.scene, aside.T_scene_camera, property.seed + 1)};
     const std::vector<PosedCloud> clouds{{&frames[0].cloud, property.view.T_scene_camera},
                                          {&frames[1].cloud, aside.T_scene_camera}};
     MeasuredPoints given;
@@ -104,7 +104,7 @@ TEST(Properties, MovedPointsMoveTheirShells)
   Tally all;
   std::size_t samples = 0, other_neighborhoods = 0;
   forEachCase([&](PropertyCase property) {
-    const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
+    const Frame frame = DepthCamera().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     std::vector<std::uint32_t> from;
     const Cloud cloud = measuredPointsOf(frame.cloud, from);
     const MeasuredPoints given =
@@ -156,7 +156,7 @@ TEST(Properties, PointsMovedWithoutRoundingMoveTheirShells)
 {
   Tally all;
   forEachCase([&](PropertyCase property) {
-    const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
+    const Frame frame = DepthCamera().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     std::vector<std::uint32_t> from;
     const Cloud cloud = onGrid(measuredPointsOf(frame.cloud, from));
     const MeasuredPoints given =

@@ -46,7 +46,7 @@ TEST(Properties, PermutedPointsGiveTheSameShells)
   Tally all;
   std::size_t ties = 0;
   forEachCase([&](PropertyCase property) {
-    const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
+    const Frame frame = DepthCamera().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     const std::vector<std::uint32_t> points =
         somePoints(frame.cloud, property.config, property.samples, property.random);
     std::vector<std::uint32_t> from, new_places;
@@ -79,7 +79,7 @@ TEST(Properties, PointsFarAwayChangeNothing)
 {
   Tally all;
   forEachCase([&](PropertyCase property) {
-    const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
+    const Frame frame = DepthCamera().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     const std::vector<std::uint32_t> points =
         somePoints(frame.cloud, property.config, property.samples, property.random);
     std::vector<std::uint32_t> from;

@@ -21,7 +21,7 @@ TEST(Properties, MoreCaptureRadiusLosesNoShell)
     config.shell.continue_surfaces = false;
     config.neighborhood.radius = 0.026;
     config.hand.capture_radius = 0.018;
-    const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
+    const Frame frame = DepthCamera().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     const MeasuredPoints given = samplesOf(somePoints(frame.cloud, config, property.samples, property.random));
     std::vector<SampleResult> smaller = GivenSamples(alone(frame.cloud), config).examine(given);
     for (const int steps : {1, 3, 8}) {

@@ -95,7 +95,7 @@ TEST(Properties, AScaledWorldHasScaledShells)
     Config& config = property.config;
     config.shell.continue_surfaces = false;
     const double factor = property.seed % 2 == 0 ? 0.5 : 2.0;
-    const Frame frame = Xtion().capture(property.view.scene, property.view.T_scene_camera, property.seed);
+    const Frame frame = DepthCamera().capture(property.view.scene, property.view.T_scene_camera, property.seed);
     const std::vector<std::uint32_t> points = somePoints(frame.cloud, config, property.samples, property.random);
     const Growth growth(frame.cloud, config, samplesOf(points), factor);
     for (std::size_t i = 0; i < points.size(); ++i) {

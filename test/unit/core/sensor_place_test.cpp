@@ -33,7 +33,7 @@ struct SeenScene
 {
   explicit SeenScene(const std::string& name)
       : view(makeScene(name, 1)),
-        points(unorganized(Xtion().capture(view.scene, view.T_scene_camera, 1).cloud)),
+        points(unorganized(DepthCamera().capture(view.scene, view.T_scene_camera, 1).cloud)),
         handles(Localizer().localize(points).handles.size())
   {
   }
@@ -215,7 +215,7 @@ TEST(UnknownSensorPlace, IsToldByEveryEstimator)
 TEST(KnownSensorPlace, OfARangeImageIsItsOrigin)
 {
   const View view = makeScene("table", 1);
-  Cloud cloud = Xtion().capture(view.scene, view.T_scene_camera, 1).cloud;
+  Cloud cloud = DepthCamera().capture(view.scene, view.T_scene_camera, 1).cloud;
   Config config;
   config.sampling.samples = 500;
   const Localization expected = Localizer(config).localize(cloud);

@@ -218,7 +218,7 @@ Quality watch(const NamedScene& scene, std::uint64_t seed, std::size_t frames, c
 {
   const View view = scene.generate(seed);
   const CameraOrbit orbit(view, kAmplitude, kOrbitPeriod);
-  const Xtion xtion;
+  const DepthCamera camera;
   Localizer localizer(config);
   HandleTracker tracker(config.tracking);
   Observer observer;
@@ -226,8 +226,8 @@ Quality watch(const NamedScene& scene, std::uint64_t seed, std::size_t frames, c
   for (std::size_t i = 0; i < frames; ++i) {
     const double time = kPeriod * static_cast<double>(i);
     const View moved{view.scene, orbit.pose(time)};
-    const Frame frame = xtion.capture(moved.scene, moved.T_scene_camera, seed + i);
-    const std::vector<Affordance> affordances = groundTruth(moved, frame, xtion.model()).affordances;
+    const Frame frame = camera.capture(moved.scene, moved.T_scene_camera, seed + i);
+    const std::vector<Affordance> affordances = groundTruth(moved, frame, camera.model()).affordances;
     localizer.localize(frame.cloud, localization);
     for (GraspHandle& handle : localization.handles) {
       handle = transformed(std::move(handle), moved.T_scene_camera);

@@ -86,8 +86,8 @@ View barBeforePlate(double clearance)
 TEST(GroundTruth, DescribesABarThatIsHalfHidden)
 {
   View view = barBeforePlate(0.02);
-  const XtionModel model;
-  const auto capture = [&] { return Xtion(model).capture(view.scene, view.T_scene_camera, 1); };
+  const SensorModel model;
+  const auto capture = [&] { return DepthCamera(model).capture(view.scene, view.T_scene_camera, 1); };
   const Frame open_frame = capture();
   const GroundTruth open = groundTruth(view, open_frame, model);
   ASSERT_EQ(open.affordances.size(), 1U);
@@ -121,13 +121,13 @@ TEST(GroundTruth, DescribesABarThatIsHalfHidden)
 
 TEST(GroundTruth, MarginGrowsWithTheDepthQuantum)
 {
-  const auto labelAt = [](double clearance, const XtionModel& model) {
+  const auto labelAt = [](double clearance, const SensorModel& model) {
     const View view = barBeforePlate(clearance);
-    const Frame frame = Xtion(model).capture(view.scene, view.T_scene_camera, 1);
+    const Frame frame = DepthCamera(model).capture(view.scene, view.T_scene_camera, 1);
     const std::vector<std::uint32_t> labels = groundTruth(view, frame, model).labels;
     return *std::max_element(labels.begin(), labels.end());
   };
-  XtionModel model;
+  SensorModel model;
   const double quantum = model.depthQuantum(0.8);
   ASSERT_GT(quantum, 0.0015);
   EXPECT_EQ(labelAt(0.008 - 1.05 * quantum, model), kNotGraspable);
@@ -141,9 +141,9 @@ TEST(GroundTruth, MarginGrowsWithTheDepthQuantum)
 
 TEST(GroundTruth, MarginIsThatOfTheFarthestCamera)
 {
-  const XtionModel model;
+  const SensorModel model;
   const View view = barBeforePlate(0.008 + 1.05 * model.depthQuantum(0.8));
-  const Frame frame = Xtion(model).capture(view.scene, view.T_scene_camera, 1);
+  const Frame frame = DepthCamera(model).capture(view.scene, view.T_scene_camera, 1);
   const auto largestLabel = [&](const std::vector<Eigen::Isometry3d>& other_cameras) {
     const GroundTruth truth = groundTruth(view, frame, model, kDefinition, other_cameras);
     return *std::max_element(truth.labels.begin(), truth.labels.end());
@@ -154,8 +154,9 @@ TEST(GroundTruth, MarginIsThatOfTheFarthestCamera)
 
 TEST(GroundTruth, IsEmptyForAnEmptyScene)
 {
-  const XtionModel model;
-  const GroundTruth truth = groundTruth(View{}, Xtion(model).capture(Scene(), Eigen::Isometry3d::Identity(), 1), model);
+  const SensorModel model;
+  const GroundTruth truth =
+      groundTruth(View{}, DepthCamera(model).capture(Scene(), Eigen::Isometry3d::Identity(), 1), model);
   EXPECT_TRUE(truth.affordances.empty());
   EXPECT_EQ(truth.labels, std::vector<std::uint32_t>(640 * 480, kNotGraspable));
 }

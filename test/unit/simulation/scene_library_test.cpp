@@ -25,12 +25,12 @@ namespace
 
 TEST(SceneLibrary, SeedDeterminesTheScene)
 {
-  XtionModel model;
+  SensorModel model;
   model.exact = true;
   for (const NamedScene& scene : sceneLibrary()) {
     const auto depth = [&](std::uint64_t seed) {
       const View view = makeScene(scene.name, seed);
-      return Xtion(model).capture(view.scene, view.T_scene_camera, 1).depth;
+      return DepthCamera(model).capture(view.scene, view.T_scene_camera, 1).depth;
     };
     EXPECT_TRUE(depth(1) == depth(1)) << scene.name;
     EXPECT_FALSE(depth(1) == depth(2)) << scene.name;
@@ -46,8 +46,8 @@ TEST(SceneLibrary, EveryAffordanceOfTheTableIsWellVisible)
 {
   for (std::uint64_t seed = 0; seed <= 20; ++seed) {
     const View view = makeScene("table", seed);
-    const Frame frame = Xtion().capture(view.scene, view.T_scene_camera, seed);
-    const GroundTruth truth = groundTruth(view, frame, XtionModel());
+    const Frame frame = DepthCamera().capture(view.scene, view.T_scene_camera, seed);
+    const GroundTruth truth = groundTruth(view, frame, SensorModel());
     ASSERT_EQ(truth.affordances.size(), 3u) << "seed " << seed;
     for (const Affordance& affordance : truth.affordances) {
       EXPECT_GE(affordance.visible_points, 700u) << affordance.object << ", seed " << seed;
@@ -59,7 +59,7 @@ TEST(SceneLibrary, EveryAffordanceOfTheTableIsWellVisible)
 
 TEST(SceneLibrary, StripBetweenThePlatesIsTheSameWithoutThem)
 {
-  XtionModel model;
+  SensorModel model;
   model.exact = true;  // the strip is in the projector's shadow
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -104,7 +104,7 @@ bool isSupport(const std::string& name)
 
 GroundTruth truthOf(const View& view, std::uint64_t seed, const GraspDefinition& definition = GraspDefinition())
 {
-  return groundTruth(view, Xtion().capture(view.scene, view.T_scene_camera, seed), XtionModel(), definition);
+  return groundTruth(view, DepthCamera().capture(view.scene, view.T_scene_camera, seed), SensorModel(), definition);
 }
 
 std::multiset<std::string> affordanceObjects(const GroundTruth& truth)
@@ -183,7 +183,7 @@ TEST_P(ArrangedScene, NoObjectGoesThroughAnother)
 
 TEST_P(ArrangedScene, ObjectsAreInThePicture)
 {
-  const XtionModel model;
+  const SensorModel model;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const View view = makeScene(GetParam(), seed);
     for (std::size_t object = 0; object < view.scene.objects().size(); ++object) {

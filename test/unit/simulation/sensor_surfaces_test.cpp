@@ -16,14 +16,14 @@ namespace
 
 using namespace test;
 
-TEST(Xtion, LosesSurfacesAtGrazingAngles)
+TEST(DepthCamera, LosesSurfacesAtGrazingAngles)
 {
   constexpr int bins = 90;
   std::vector<double> pixels(bins, 0.0), found(bins, 0.0);
   for (const double tilt : {55.0, 65.0, 75.0, 80.0, 85.0}) {
     const Frame frame = capture(wall(1.0, tilt * kDegree, Eigen::Vector3d::UnitX()), 1);
     const Eigen::Vector3d normal(0.0, std::sin(tilt * kDegree), -std::cos(tilt * kDegree));
-    const XtionModel model;
+    const SensorModel model;
     for (std::size_t i = 0; i < frame.depth.size(); ++i) {
       const std::size_t u = i % 640, v = i / 640;
       const Eigen::Vector3d ray((static_cast<double>(u) - model.intrinsics.cx) / model.intrinsics.fx,
@@ -56,7 +56,7 @@ TEST(Xtion, LosesSurfacesAtGrazingAngles)
   EXPECT_GT(pixels[85], 3000.0);
 }
 
-TEST(Xtion, DarkSurfacesFadeWithDistanceAndSlant)
+TEST(DepthCamera, DarkSurfacesFadeWithDistanceAndSlant)
 {
   const auto share = [](double depth, double tilt) {
     return measuredShare(capture(wall(depth, tilt * kDegree, Eigen::Vector3d::UnitX(), Surface::dark), 1));
@@ -67,7 +67,7 @@ TEST(Xtion, DarkSurfacesFadeWithDistanceAndSlant)
   EXPECT_LT(share(0.9, 50.0), share(0.9, 0.0) - 0.2);
 }
 
-TEST(Xtion, ShinySurfacesHaveAHoleWhereTheyMirrorTheProjector)
+TEST(DepthCamera, ShinySurfacesHaveAHoleWhereTheyMirrorTheProjector)
 {
   const Frame frame = capture(wall(1.0, 0.0, Eigen::Vector3d::UnitY(), Surface::shiny), 1);
   // The mirror's normal is half-way between camera and projector: 3.75 cm to the right.
@@ -89,7 +89,7 @@ TEST(Xtion, ShinySurfacesHaveAHoleWhereTheyMirrorTheProjector)
   EXPECT_NEAR(shareWithin(0.3, 0.6), 0.9, 0.04);
 }
 
-TEST(Xtion, SeesThroughTransparentSurfaces)
+TEST(DepthCamera, SeesThroughTransparentSurfaces)
 {
   View view = wall(1.2);
   view.scene.add(Box{{2.0, 2.0, 0.005}}, at(0.0, 0.0, 0.8), Surface::transparent);
@@ -99,11 +99,11 @@ TEST(Xtion, SeesThroughTransparentSurfaces)
   EXPECT_EQ(shareOfPart(capture(view, 1, exactModel()), 1), 1.0);
 }
 
-TEST(Xtion, AbsorbingSurfacesHideWhatIsBehindThem)
+TEST(DepthCamera, AbsorbingSurfacesHideWhatIsBehindThem)
 {
   View view = wall(1.2);
   view.scene.add(Box{{2.0, 2.0, 0.005}}, at(0.0, 0.0, 0.8), Surface::absorbing);
-  for (const XtionModel& model : {XtionModel(), exactModel()})
+  for (const SensorModel& model : {SensorModel(), exactModel()})
     EXPECT_EQ(measured(capture(view, 1, model)), 0u);
 }
 

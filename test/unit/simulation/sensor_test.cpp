@@ -22,9 +22,9 @@ namespace
 
 using namespace test;
 
-TEST(Xtion, ShadowOfAPlateBeforeAWallIsOnItsLeft)
+TEST(DepthCamera, ShadowOfAPlateBeforeAWallIsOnItsLeft)
 {
-  const XtionModel model;
+  const SensorModel model;
   for (const double far : {1.0, 1.5}) {
     constexpr double near = 0.7;
     View view = wall(far);
@@ -48,7 +48,7 @@ TEST(Xtion, ShadowOfAPlateBeforeAWallIsOnItsLeft)
   }
 }
 
-TEST(Xtion, ExactPointsLieOnTheSurfaces)
+TEST(DepthCamera, ExactPointsLieOnTheSurfaces)
 {
   const View view = allKinds();
   const Frame frame = capture(view, 4, exactModel());
@@ -73,12 +73,12 @@ TEST(Xtion, ExactPointsLieOnTheSurfaces)
 
 // Disparity is off by the noise and half a step, depth by half a millimetre more; next to depth edges the point where
 // the surface was hit is up to 2 px away along rows and columns.
-TEST(Xtion, PointsLieOnTheSurfacesWithinTheModelsBound)
+TEST(DepthCamera, PointsLieOnTheSurfacesWithinTheModelsBound)
 {
   const View view = makeScene("table", 4);
-  const XtionModel model;
+  const SensorModel model;
   const Frame frame = capture(view, 4, model);
-  XtionModel exact_model = exactModel();
+  SensorModel exact_model = exactModel();
   exact_model.min_depth *= 0.9;
   const Frame exact = capture(view, 4, exact_model);
   const double largest_error =
@@ -112,7 +112,7 @@ TEST(Xtion, PointsLieOnTheSurfacesWithinTheModelsBound)
   EXPECT_LT(jittered, frame.cloud.size() / 50);
 }
 
-TEST(Xtion, CloudIsWhatDepthImageProcMakesOfTheDepthImage)
+TEST(DepthCamera, CloudIsWhatDepthImageProcMakesOfTheDepthImage)
 {
   const Frame frame = capture(makeScene("table", 5), 5);
   ASSERT_EQ(frame.cloud.width, 640u);
@@ -150,9 +150,9 @@ std::vector<double> errors(const Frame& frame)
 
 // Walls slanted by 8 degrees, so that their disparities spread evenly over many steps and rounding to steps has its
 // mean variance, q^2 / 12; rounding to millimetres has 1 mm^2 / 12.
-TEST(Xtion, NoiseGrowsWithTheSquareOfDepth)
+TEST(DepthCamera, NoiseGrowsWithTheSquareOfDepth)
 {
-  const XtionModel model;
+  const SensorModel model;
   const double disparity_variance = std::pow(model.disparity_noise, 2) + std::pow(model.disparity_step, 2) / 12.0;
   for (const double depth : {0.7, 1.0, 1.4, 2.0}) {
     const Frame frame = capture(wall(depth, 8.0 * kDegree), 1, model);
@@ -178,7 +178,7 @@ TEST(Xtion, NoiseGrowsWithTheSquareOfDepth)
   }
 }
 
-TEST(Xtion, NoiseOfNeighborsIsCorrelatedAndThatOfFarPixelsIsNot)
+TEST(DepthCamera, NoiseOfNeighborsIsCorrelatedAndThatOfFarPixelsIsNot)
 {
   const std::vector<double> error = errors(capture(wall(2.0, 8.0 * kDegree), 1));
   const auto covariance = [&](std::size_t apart) {
@@ -194,9 +194,9 @@ TEST(Xtion, NoiseOfNeighborsIsCorrelatedAndThatOfFarPixelsIsNot)
   EXPECT_NEAR(covariance(20 * 640 + 30) / covariance(0), 0.0, 0.05);
 }
 
-TEST(Xtion, DepthComesInMillimetresFromWholeDisparitySteps)
+TEST(DepthCamera, DepthComesInMillimetresFromWholeDisparitySteps)
 {
-  const XtionModel model;
+  const SensorModel model;
   for (const double depth : {0.7, 1.3, 3.1}) {
     const Frame frame = capture(wall(depth), 1, model);
     std::vector<std::uint16_t> values(frame.depth);
@@ -215,28 +215,28 @@ TEST(Xtion, DepthComesInMillimetresFromWholeDisparitySteps)
   }
 }
 
-TEST(Xtion, RefusesAModelThatMeasuresNothing)
+TEST(DepthCamera, RefusesAModelThatMeasuresNothing)
 {
-  const auto constructionWith = [](auto XtionModel::*member, auto value) {
-    XtionModel model;
+  const auto constructionWith = [](auto SensorModel::*member, auto value) {
+    SensorModel model;
     model.*member = value;
-    return [model] { Xtion sensor(model); };
+    return [model] { DepthCamera sensor(model); };
   };
   for (const auto size :
-       {&XtionModel::width, &XtionModel::height, &XtionModel::window_width, &XtionModel::window_height}) {
+       {&SensorModel::width, &SensorModel::height, &SensorModel::window_width, &SensorModel::window_height}) {
     EXPECT_THROW(constructionWith(size, 0)(), std::invalid_argument);
     EXPECT_NO_THROW(constructionWith(size, 1)());
   }
   for (const double step : {0.0, -0.125, std::nan("")})
-    EXPECT_THROW(constructionWith(&XtionModel::disparity_step, step)(), std::invalid_argument);
-  for (const double depth : {0.0, XtionModel().max_depth, std::nan("")})
-    EXPECT_THROW(constructionWith(&XtionModel::min_depth, depth)(), std::invalid_argument);
-  for (const double depth : {XtionModel().min_depth, 65.1, std::nan("")})
-    EXPECT_THROW(constructionWith(&XtionModel::max_depth, depth)(), std::invalid_argument);
-  EXPECT_NO_THROW(constructionWith(&XtionModel::max_depth, 65.0)());
+    EXPECT_THROW(constructionWith(&SensorModel::disparity_step, step)(), std::invalid_argument);
+  for (const double depth : {0.0, SensorModel().max_depth, std::nan("")})
+    EXPECT_THROW(constructionWith(&SensorModel::min_depth, depth)(), std::invalid_argument);
+  for (const double depth : {SensorModel().min_depth, 65.1, std::nan("")})
+    EXPECT_THROW(constructionWith(&SensorModel::max_depth, depth)(), std::invalid_argument);
+  EXPECT_NO_THROW(constructionWith(&SensorModel::max_depth, 65.0)());
 }
 
-TEST(Xtion, MeasuresOnlyWithinItsRange)
+TEST(DepthCamera, MeasuresOnlyWithinItsRange)
 {
   EXPECT_EQ(measured(capture(wall(0.45), 1)), 0u);
   EXPECT_EQ(measured(capture(wall(0.55), 1)), 640u * 480u);
@@ -245,7 +245,7 @@ TEST(Xtion, MeasuresOnlyWithinItsRange)
   EXPECT_EQ(measured(capture(View{}, 1)), 0u);
 }
 
-TEST(Xtion, SeedDeterminesTheFrameWhateverTheNumberOfThreads)
+TEST(DepthCamera, SeedDeterminesTheFrameWhateverTheNumberOfThreads)
 {
   View view = allKinds();
   const Frame frame = capture(view, 1);

@@ -50,7 +50,7 @@ TEST(RayCaster, FindsWhatAllPartsOneByOneGive)
 TEST(VisibleSurfaces, AreThoseOfAllPartsOneByOne)
 {
   const View view = allKinds();
-  const XtionModel model;
+  const SensorModel model;
   // The camera is elsewhere, and rolled.
   const Eigen::Isometry3d T_scene_camera =
       at(0.02, -0.05, 0.1) * Eigen::AngleAxisd(0.2, Eigen::Vector3d(0.2, 0.1, 1.0).normalized());

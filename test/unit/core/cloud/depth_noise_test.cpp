@@ -25,7 +25,7 @@ TEST(DepthNoise, IsFourCentimetresAtFiveMetres)
 
 TEST(DepthNoise, GrowsAsThatOfTheSimulatedSensor)
 {
-  const XtionModel model;
+  const SensorModel model;
   const double step = model.disparity_step, noise = model.disparity_noise;
   const double disparity = std::sqrt(noise * noise + step * step / 12.0);
   for (const double depth : {0.6, 1.0, 3.0}) {

@@ -52,7 +52,7 @@ TEST(RangeImage, ReplacesIntrinsicsThatDoNotFit)
   const auto image = RangeImage::create(cloud, warning);
   ASSERT_TRUE(image);
   EXPECT_NE(warning.find("estimated"), std::string::npos) << warning;
-  EXPECT_NEAR(image->intrinsics().fx, XtionModel().intrinsics.fx, 1e-2);
+  EXPECT_NEAR(image->intrinsics().fx, SensorModel().intrinsics.fx, 1e-2);
 }
 
 TEST(RangeImage, ReplacesIntrinsicsThatAreNotFinite)
@@ -63,7 +63,7 @@ TEST(RangeImage, ReplacesIntrinsicsThatAreNotFinite)
   const auto image = RangeImage::create(cloud, warning);
   ASSERT_TRUE(image);
   EXPECT_NE(warning.find("estimated"), std::string::npos) << warning;
-  EXPECT_NEAR(image->intrinsics().cx, XtionModel().intrinsics.cx, 1e-2);
+  EXPECT_NEAR(image->intrinsics().cx, SensorModel().intrinsics.cx, 1e-2);
 }
 
 TEST(RangeImage, RefusesACloudThatWasMoved)
@@ -103,7 +103,7 @@ TEST(RangeImage, FindsThePixelOfAPoint)
   }
   EXPECT_FALSE(image->pixel({0, 0, -1}));
   EXPECT_FALSE(image->pixel({10, 0, 1}));
-  EXPECT_NEAR(image->spacing(1.05), 1.05 / XtionModel().intrinsics.fx, 1e-6);
+  EXPECT_NEAR(image->spacing(1.05), 1.05 / SensorModel().intrinsics.fx, 1e-6);
 }
 
 }  // namespace

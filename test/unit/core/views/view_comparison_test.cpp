@@ -25,9 +25,9 @@ namespace
 const std::vector<std::string> kPaperScenes = {"mugs",       "cleaning1", "kitchen1", "cleaning2", "household1",
                                                "household2", "kitchen2",  "kitchen3", "luggage",   "cleaning3"};
 
-XtionModel exactModel()
+SensorModel exactModel()
 {
-  XtionModel model;
+  SensorModel model;
   model.exact = true;
   return model;
 }
@@ -35,7 +35,7 @@ XtionModel exactModel()
 /// A wall that faces the camera, at a depth (m).
 Cloud wall(float depth)
 {
-  const PinholeIntrinsics camera = XtionModel().intrinsics;
+  const PinholeIntrinsics camera = SensorModel().intrinsics;
   Cloud cloud;
   cloud.reset(640, 480);
   for (std::uint32_t v = 0; v < cloud.height; ++v) {
@@ -52,11 +52,11 @@ class TwoViews
 {
 public:
   /// @param angle rad, by which the second camera is turned about the vertical
-  TwoViews(const View& view, double angle, const XtionModel& model = XtionModel())
+  TwoViews(const View& view, double angle, const SensorModel& model = SensorModel())
       : first_(view),
         second_(viewFromAside(view, angle)),
-        frames_{Xtion(model).capture(view.scene, first_.T_scene_camera, 1),
-                Xtion(model).capture(view.scene, second_.T_scene_camera, 2)}
+        frames_{DepthCamera(model).capture(view.scene, first_.T_scene_camera, 1),
+                DepthCamera(model).capture(view.scene, second_.T_scene_camera, 2)}
   {
     for (int i = 0; i < 2; ++i) {
       std::string warning;
@@ -139,7 +139,7 @@ TEST(ViewAgreementTest, takesForRightWhatASinglePlaneDoesNotTell)
 {
   for (const bool exact : {true, false}) {
     SCOPED_TRACE(exact ? "exact" : "with noise");
-    const TwoViews views(viewOf(plane()), 40 * kDegree, exact ? exactModel() : XtionModel());
+    const TwoViews views(viewOf(plane()), 40 * kDegree, exact ? exactModel() : SensorModel());
     EXPECT_LT(views.disagreement(), 0.002);
     EXPECT_LT(views.disagreement(at(0.03, 0, 0)), 0.002);
     EXPECT_LT(views.disagreement(at(0, 0.03, 0)), 0.002);

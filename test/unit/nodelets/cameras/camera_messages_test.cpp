@@ -11,9 +11,9 @@ namespace grasp_affordances
 namespace
 {
 
-XtionModel tinyModel()
+SensorModel tinyModel()
 {
-  XtionModel model;
+  SensorModel model;
   model.width = 2;
   model.height = 1;
   return model;
