@@ -64,17 +64,17 @@ View emptyStage(const Stage& stage, CounterRandom& random)
   View view;
   if (stage.support == Stage::Support::table) {
     const double yaw = kDegree * random.uniform(-10.0, 10.0);
-    view.scene.beginObject("table");
+    view.scene.beginObject("table", Role::support);
     view.scene.add(Box{{stage.table_size.x(), stage.table_size.y(), 0.03}},
                    upright(0.0, 0.04, yaw) * at(0.0, 0.0, -0.015));
-    view.scene.beginObject("floor");
+    view.scene.beginObject("floor", Role::floor);
     view.scene.add(HalfSpace{}, at(0.0, 0.0, -0.72));
   } else {
-    view.scene.beginObject("floor");
+    view.scene.beginObject("floor", Role::support);
     view.scene.add(HalfSpace{}, Eigen::Isometry3d::Identity());
   }
   if (stage.wall > 0.0) {
-    view.scene.beginObject("wall");
+    view.scene.beginObject("wall", Role::wall);
     view.scene.add(HalfSpace{}, at(0.0, stage.wall, 0.0) * turned(0.5 * kPi, Eigen::Vector3d::UnitX()));
   }
 
@@ -106,7 +106,7 @@ void append(const Scene& from, const Eigen::Isometry3d& T_to_from, Scene& to)
   std::size_t next_object = 0;
   for (const Part& part : from.parts()) {
     for (; next_object <= part.object; ++next_object)
-      to.beginObject(from.objects()[next_object]);
+      to.beginObject(from.objects()[next_object], from.roles()[next_object]);
     to.add(part.shape, T_to_from * part.T_scene_shape, part.surface);
   }
   for (std::vector<std::size_t> chain : from.chains()) {

@@ -17,7 +17,7 @@ View viewOfTable(CounterRandom& random)
 {
   View view;
   const double yaw = kDegree * random.uniform(-12.0, 12.0);
-  view.scene.beginObject("table");
+  view.scene.beginObject("table", Role::support);
   view.scene.add(Box{{1.6, 1.2, 0.03}}, upright(0.0, 0.25, yaw) * Eigen::Translation3d(0.0, 0.0, -0.015));
 
   const double pitch = kDegree * random.uniform(36.0, 43.0);
@@ -119,10 +119,11 @@ View shadowRemoved(std::uint64_t seed)
 std::vector<NamedScene> basicScenes()
 {
   return {
-      {"table", "a mug (handle: label 1), a bottle (neck: 2), a bar between two posts (3) and a box on a table", table},
-      {"empty_table", "a table with nothing on it", emptyTable},
-      {"shadow", "a strip of a wall between two plates before it, which poses as a thin bar", shadow},
-      {"shadow_removed", "the strip of the scene shadow, and nothing else measured", shadowRemoved},
+      {"table", "tests",
+       "a mug (handle: label 1), a bottle (neck: 2), a bar between two posts (3) and a box on a table", table},
+      {"empty_table", "tests", "a table with nothing on it", emptyTable},
+      {"shadow", "tests", "a strip of a wall between two plates before it, which poses as a thin bar", shadow},
+      {"shadow_removed", "tests", "the strip of the scene shadow, and nothing else measured", shadowRemoved},
   };
 }
 

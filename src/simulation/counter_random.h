@@ -10,13 +10,14 @@ namespace grasp_affordances
 /// Purpose of random numbers. Each purpose has its own stream, independent of the others.
 enum class RandomStream : std::uint64_t
 {
-  placement,    ///< sizes and places of the objects and the camera of a scene
-  disparity,    ///< noise of the stereo matching
-  edge_column,  ///< jitter of depth edges along the rows
-  edge_row,     ///< jitter of depth edges along the columns
-  edge_loss,    ///< missing pixels at depth edges
-  reflection,   ///< missing pixels where too little or too much light returns
-  transparency  ///< which surface is measured at a transparent one
+  placement,     ///< sizes and places of the objects and the camera of a scene
+  disparity,     ///< noise of the stereo matching
+  edge_column,   ///< jitter of depth edges along the rows
+  edge_row,      ///< jitter of depth edges along the columns
+  edge_loss,     ///< missing pixels at depth edges
+  reflection,    ///< missing pixels where too little or too much light returns
+  transparency,  ///< which surface is measured at a transparent one
+  background     ///< sizes and places of what is behind the objects
 };
 
 /// Counter-based random numbers (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011). The n-th draw

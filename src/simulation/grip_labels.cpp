@@ -185,7 +185,7 @@ public:
         candidate[static_cast<std::size_t>(cell - cells.data())] = true;
     }
     for (std::size_t i = 0; i < cells.size(); ++i)
-      cells[i].verdict = candidate[i] ? std::min(cells[i].verdict, isClear(cells[i], chain)) : Verdict::no;
+      cells[i].verdict = candidate[i] ? std::min(cells[i].verdict, surroundingsAllow(cells[i], chain)) : Verdict::no;
     return {runs(cells, closed, Verdict::yes, definition_.min_length),
             runs(cells, closed, Verdict::maybe, definition_.min_length)};
   }
@@ -207,6 +207,13 @@ private:
       const Part& part = scene_.parts()[earlier.part];
       return contains(part.shape, part.T_scene_shape.inverse() * point);
     });
+  }
+
+  /// In the background nobody looks for clearance, and nothing is certain.
+  Verdict surroundingsAllow(const Cell& cell, const std::vector<std::size_t>& chain) const
+  {
+    const bool background = scene_.roles()[scene_.parts()[cell.part].object] == Role::background;
+    return background ? Verdict::maybe : isClear(cell, chain);
   }
 
   Verdict isClear(const Cell& cell, const std::vector<std::size_t>& chain) const

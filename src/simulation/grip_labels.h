@@ -43,7 +43,8 @@ using MarginAt = std::function<double(const Eigen::Vector3d& point_scene)>;
 /// These cells are doubtful:
 ///  - cells of a run that would be a grip if radius, clearance and length changed by the margin;
 ///  - round cells that fit into the hand but are too flat: their radius of curvature exceeds the capture radius;
-///  - rectangular cells that fit into the hand.
+///  - rectangular cells that fit into the hand;
+///  - cells of a run in the background, with any clearance, that would be a grip without the margin or with it.
 ///
 /// Of several axes of a part, the first one with a grip counts, or else the first one with doubtful cells.
 class GripLabels

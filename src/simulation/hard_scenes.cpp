@@ -171,9 +171,10 @@ View distractors(std::uint64_t seed)
 std::vector<NamedScene> hardScenes()
 {
   return {
-      {"far", "up to five objects with handles and up to three without, 1.2 to 1.5 m away", far},
-      {"clutter", "26 objects upright, lying and on top of one another, close together", clutter},
-      {"distractors", "nothing to grasp: boxes, edges, corners, vessels, bars too close to a wall", distractors},
+      {"far", "far", "up to five objects with handles and up to three without, 1.2 to 1.5 m away", far},
+      {"clutter", "clutter", "26 objects upright, lying and on top of one another, close together", clutter},
+      {"distractors", "distractors", "nothing to grasp: boxes, edges, corners, vessels, bars too close to a wall",
+       distractors},
   };
 }
 

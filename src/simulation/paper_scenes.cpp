@@ -182,19 +182,20 @@ View cleaning3(std::uint64_t seed)
 std::vector<NamedScene> paperScenes()
 {
   return {
-      {"mugs", "five mugs, their handles in various directions", mugs},
-      {"cleaning1", "dust pan with raised sides, brush, spray bottle and sponge", cleaning1},
-      {"kitchen1", "glass French press, lotion bottle too thick to grasp, horizontal box, mug and bottle", kitchen1},
-      {"cleaning2",
+      {"mugs", "paper", "five mugs, their handles in various directions", mugs},
+      {"cleaning1", "paper", "dust pan with raised sides, brush, spray bottle and sponge", cleaning1},
+      {"kitchen1", "paper", "glass French press, lotion bottle too thick to grasp, horizontal box, mug and bottle",
+       kitchen1},
+      {"cleaning2", "paper",
        "front example of the paper, seven affordances for a capture radius of 2.9 cm: apple, end of a banana, neck of "
        "a squirt bottle, handles of dust pan, jug and broom, cap of the jug",
        cleaning2},
-      {"household1", "lamp, hammer, hair brush, flashlight, book and tape", household1},
-      {"household2", "cordless phone, flashlight, hair brush, mug, cup and book", household2},
-      {"kitchen2", "tea kettle with its handle on top, pot and three salad dressing bottles", kitchen2},
-      {"kitchen3", "pan, ladle in a bowl, rolling pin, mug and plate", kitchen3},
-      {"luggage", "two suitcases, one of them lying, and a backpack, with carry handles", luggage},
-      {"cleaning3", "broom, bucket with its bail up, jug, spray bottle and sponge", cleaning3},
+      {"household1", "paper", "lamp, hammer, hair brush, flashlight, book and tape", household1},
+      {"household2", "paper", "cordless phone, flashlight, hair brush, mug, cup and book", household2},
+      {"kitchen2", "paper", "tea kettle with its handle on top, pot and three salad dressing bottles", kitchen2},
+      {"kitchen3", "paper", "pan, ladle in a bowl, rolling pin, mug and plate", kitchen3},
+      {"luggage", "paper", "two suitcases, one of them lying, and a backpack, with carry handles", luggage},
+      {"cleaning3", "paper", "broom, bucket with its bail up, jug, spray bottle and sponge", cleaning3},
   };
 }
 

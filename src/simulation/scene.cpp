@@ -6,16 +6,17 @@
 namespace grasp_affordances
 {
 
-void Scene::beginObject(const std::string& name)
+void Scene::beginObject(const std::string& name, Role role)
 {
   objects_.push_back(name);
+  roles_.push_back(role);
 }
 
 std::size_t Scene::add(const Primitive& shape, const Eigen::Isometry3d& T_scene_shape, Surface surface)
 {
   validate(shape);
   if (objects_.empty()) {
-    objects_.emplace_back("object");
+    beginObject("object");
   }
   parts_.push_back({shape, T_scene_shape, surface, objects_.size() - 1});
   return parts_.size() - 1;

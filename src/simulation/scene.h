@@ -30,12 +30,23 @@ struct Part
   std::size_t object;  ///< index into Scene::objects()
 };
 
+/// What an object is to a scene. A background replaces supports, floors and walls, and leaves things as they are.
+enum class Role
+{
+  thing,      ///< stands or hangs somewhere; may be grasped
+  front,      ///< of a door, a drawer or an appliance; things are mounted on it
+  support,    ///< a table, or a floor without one: what the things stand on. Its top is z = 0
+  floor,      ///< below a table
+  wall,       ///< behind the things; some may lean or hang on it
+  background  ///< far away; a bar that could be grasped there is doubtful
+};
+
 /// A set of solids. They may overlap; the sensor sees their union. An object has one or several parts.
 class Scene
 {
 public:
   /// Starts a new object. Parts that are added from now on belong to it. Names need not be unique.
-  void beginObject(const std::string& name);
+  void beginObject(const std::string& name, Role role = Role::thing);
 
   /// @return the part's index. @throw std::invalid_argument if the shape's dimensions do not describe a solid.
   std::size_t add(const Primitive& shape, const Eigen::Isometry3d& T_scene_shape, Surface surface = Surface::diffuse);
@@ -48,11 +59,13 @@ public:
 
   const std::vector<Part>& parts() const { return parts_; }
   const std::vector<std::string>& objects() const { return objects_; }
+  const std::vector<Role>& roles() const { return roles_; }  ///< of the objects
   const std::vector<std::vector<std::size_t>>& chains() const { return chains_; }
 
 private:
   std::vector<Part> parts_;
   std::vector<std::string> objects_;
+  std::vector<Role> roles_;
   std::vector<std::vector<std::size_t>> chains_;
 };
 

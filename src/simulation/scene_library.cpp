@@ -10,6 +10,21 @@
 namespace grasp_affordances
 {
 
+namespace
+{
+
+const NamedScene& namedScene(const std::string& name)
+{
+  const auto& library = sceneLibrary();
+  const auto found =
+      std::find_if(library.begin(), library.end(), [&](const NamedScene& scene) { return scene.name == name; });
+  if (found == library.end())
+    throw std::invalid_argument("unknown scene '" + name + "'");
+  return *found;
+}
+
+}  // namespace
+
 const std::vector<NamedScene>& sceneLibrary()
 {
   static const std::vector<NamedScene> library = [] {
@@ -21,14 +36,14 @@ const std::vector<NamedScene>& sceneLibrary()
   return library;
 }
 
-View makeScene(const std::string& name, std::uint64_t seed)
+const std::string& sceneFamily(const std::string& name)
 {
-  const auto& library = sceneLibrary();
-  const auto found =
-      std::find_if(library.begin(), library.end(), [&](const NamedScene& scene) { return scene.name == name; });
-  if (found == library.end())
-    throw std::invalid_argument("unknown scene '" + name + "'");
-  return found->generate(seed);
+  return namedScene(name).family;
+}
+
+View makeScene(const std::string& name, std::uint64_t seed, Background background, const CameraPose& camera)
+{
+  return withBackground(posed(namedScene(name).generate(seed), camera), background, seed);
 }
 
 }  // namespace grasp_affordances

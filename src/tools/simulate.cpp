@@ -1,6 +1,8 @@
 // Renders a scene as the virtual Xtion sees it, and writes the labelled cloud, the depth image and the list of objects.
 
+#include "simulation/background.h"
 #include "simulation/camera_orbit.h"
+#include "simulation/camera_pose.h"
 #include "simulation/ground_truth.h"
 #include "simulation/placement.h"
 #include "simulation/scene_library.h"
@@ -23,6 +25,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -99,9 +102,10 @@ bool standardOutputWritten()
 
 int simulateMain(int argc, char** argv)
 {
-  std::string scene, out, depth, objects;
+  std::string scene, background = "walls", out, depth, objects;
   std::uint64_t seed = 1, noise_seed = 0;
   double turn = 0.0;
+  std::optional<double> tilt, distance;
   ga::GraspDefinition definition;
   bool list = false;
 
@@ -115,6 +119,9 @@ int simulateMain(int argc, char** argv)
       "doubtful).");
   auto* list_flag = app.add_flag("--list", list, "list the scenes and exit");
   app.add_option("--scene", scene, "name of the scene")->check(CLI::IsMember(names))->excludes(list_flag);
+  app.add_option("--background", background, "what is behind the things")
+      ->check(CLI::IsMember(ga::backgroundNames()))
+      ->capture_default_str();
   app.add_option("--seed", seed, "of sizes, places and noise")
       ->check(CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1))
       ->capture_default_str();
@@ -123,6 +130,11 @@ int simulateMain(int argc, char** argv)
                  "as seen from above")
       ->check(ga::numberRange(-180.0, 180.0))
       ->capture_default_str();
+  app.add_option("--tilt", tilt, "degrees by which the camera looks down; the scene's own if not given")
+      ->check(ga::numberRange(0.0, 75.0));
+  app.add_option("--distance", distance,
+                 "of the camera from the point that it looks at, m; the scene's own if not given")
+      ->check(ga::numberRange(0.4, 1.5));
   app.add_option("--noise-seed", noise_seed, "added to the seed for the noise: cameras that see one scene differ in it")
       ->check(CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1))
       ->capture_default_str();
@@ -150,7 +162,10 @@ int simulateMain(int argc, char** argv)
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // failures are reported by written()
   ga::View view;
   try {
-    view = ga::viewFromAside(ga::makeScene(scene, seed), ga::kDegree * turn);
+    ga::CameraPose pose{tilt, distance};
+    if (pose.tilt)
+      *pose.tilt *= ga::kDegree;
+    view = ga::viewFromAside(ga::makeScene(scene, seed, ga::backgroundFromName(background), pose), ga::kDegree * turn);
   } catch (const std::exception& error) {  // not every seed leaves room for everything
     std::cerr << "simulate: " << scene << ", seed " << seed << ": " << error.what() << '\n';
     return 1;
