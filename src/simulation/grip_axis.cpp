@@ -42,6 +42,19 @@ std::array<int, 3> longestFirst(const Eigen::Vector3d& sizes)
   return order;
 }
 
+/// Distance from the middle of a rounded rectangle to its outline: to a straight side, or else to a corner's circle.
+double roundedOutlineRadius(const Eigen::Vector2d& half_sizes, double corner_radius, const Eigen::Vector2d& direction)
+{
+  const Eigen::Vector2d unit = direction.cwiseAbs().normalized();
+  const Eigen::Vector2d corner = half_sizes - Eigen::Vector2d::Constant(corner_radius);
+  const double to_side = 1.0 / unit.cwiseQuotient(half_sizes).maxCoeff();
+  const Eigen::Vector2d on_side = to_side * unit;
+  if (on_side.x() <= corner.x() || on_side.y() <= corner.y())
+    return to_side;
+  const double along = corner.dot(unit);
+  return along + halfChord(corner_radius, std::sqrt(std::max(0.0, corner.squaredNorm() - along * along)));
+}
+
 /// An axis along z with round sections. Radii are interpolated between stations.
 Axes axes(const Revolution& solid, const Eigen::Matrix3d&)
 {
@@ -120,6 +133,18 @@ Axes axes(const Box& b, const Eigen::Matrix3d&)
   return result;
 }
 
+Axes axes(const RoundedBox& b, const Eigen::Matrix3d&)
+{
+  return {GripAxis::along(b)};
+}
+
+Axes axes(const Oval& o, const Eigen::Matrix3d&)
+{
+  const auto scale = [o](double z) { return 1.0 + (o.top_scale - 1.0) * (z / o.height + 0.5); };
+  return {GripAxis::straight(Eigen::Isometry3d::Identity(), o.height, GripAxis::Section::oval,
+                             {o.semi_axis_x, o.semi_axis_y}, scale)};
+}
+
 Axes axes(const TorusArc& arc, const Eigen::Matrix3d&)
 {
   return {GripAxis::along(arc)};
@@ -157,6 +182,13 @@ GripAxis GripAxis::along(const TorusArc& arc)
   return axis;
 }
 
+GripAxis GripAxis::along(const RoundedBox& box)
+{
+  GripAxis axis = straight(Eigen::Isometry3d::Identity(), box.size.z(), Section::rounded, 0.5 * box.size.head<2>());
+  axis.corner_radius_ = box.corner_radius;
+  return axis;
+}
+
 Eigen::Isometry3d GripAxis::sectionFrame(double place) const
 {
   const double from_middle = place - 0.5 * length_;
@@ -186,18 +218,28 @@ Eigen::Vector2d GripAxis::largestHalfSizes(double from, double to) const
   return largest;
 }
 
+double GripAxis::outlineRadius(const Eigen::Vector2d& half_sizes, const Eigen::Vector2d& direction) const
+{
+  if (section_ == Section::rounded)
+    return roundedOutlineRadius(half_sizes, corner_radius_, direction);
+  const Eigen::Vector2d ratios = direction.cwiseQuotient(half_sizes);
+  const double reciprocal = section_ == Section::rectangular ? ratios.lpNorm<Eigen::Infinity>() : ratios.norm();
+  return direction.norm() / reciprocal;
+}
+
+double GripAxis::largestRadius(double from, double to) const
+{
+  const Eigen::Vector2d half_sizes = largestHalfSizes(from, to);
+  if (section_ == Section::rounded)
+    return (half_sizes - Eigen::Vector2d::Constant(corner_radius_)).norm() + corner_radius_;
+  return half_sizes.maxCoeff();
+}
+
 double GripAxis::nearest(const Eigen::Vector3d& point) const
 {
   const Eigen::Vector3d p = T_shape_axis_.inverse() * point;
   const double from_middle = bend_radius_ == 0.0 ? p.z() : bend_radius_ * std::atan2(p.y(), p.x());
   return std::clamp(from_middle + 0.5 * length_, 0.0, length_);
-}
-
-double outlineRadius(GripAxis::Section section, const Eigen::Vector2d& half_sizes, const Eigen::Vector2d& direction)
-{
-  const Eigen::Vector2d ratios = direction.cwiseQuotient(half_sizes);
-  const double reciprocal = section == GripAxis::Section::elliptic ? ratios.norm() : ratios.lpNorm<Eigen::Infinity>();
-  return direction.norm() / reciprocal;
 }
 
 std::vector<GripAxis> gripAxes(const Primitive& primitive, const Eigen::Matrix3d& R_scene_shape)

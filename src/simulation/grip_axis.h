@@ -19,7 +19,9 @@ public:
   enum class Section
   {
     elliptic,
-    rectangular
+    rectangular,
+    rounded,  ///< a rectangle with rounded corners
+    oval      ///< an ellipse that is judged by the circle around it
   };
 
   /// A straight axis along z of the given frame, whose origin is the middle of the axis. The sections are aligned with
@@ -29,6 +31,7 @@ public:
                            const Eigen::Vector2d& half_sizes, std::function<double(double)> scale = nullptr,
                            const std::vector<double>& peaks = {});
   static GripAxis along(const TorusArc& arc);
+  static GripAxis along(const RoundedBox& box);
 
   double length() const { return length_; }
   bool closed() const { return closed_; }  ///< the axis ends where it starts
@@ -38,6 +41,13 @@ public:
   Eigen::Isometry3d sectionFrame(double place) const;
   Eigen::Vector2d halfSizes(double place) const;
   Eigen::Vector2d largestHalfSizes(double from, double to) const;
+
+  /// Distance from the middle of a section of these half sizes to its outline.
+  double outlineRadius(const Eigen::Vector2d& half_sizes, const Eigen::Vector2d& direction) const;
+
+  /// Radius of a grip between two places: of the smallest circle around its sections if they are rounded or oval, else
+  /// half the sections' larger size.
+  double largestRadius(double from, double to) const;
 
   /// The place nearest to a point.
   double nearest(const Eigen::Vector3d& point) const;
@@ -49,12 +59,10 @@ private:
   bool closed_ = false;
   Section section_ = Section::elliptic;
   Eigen::Vector2d half_sizes_ = Eigen::Vector2d::Zero();
+  double corner_radius_ = 0.0;  ///< of a rounded section
   std::function<double(double)> scale_;
   std::vector<double> peaks_;  ///< places
 };
-
-/// Distance from the middle of a section to its outline.
-double outlineRadius(GripAxis::Section section, const Eigen::Vector2d& half_sizes, const Eigen::Vector2d& direction);
 
 /// The axes of a solid. Most solids have one. A box and an ellipsoid have three, the longest first. A sphere has the
 /// scene's vertical and two horizontal axes. A half-space has none.

@@ -25,7 +25,7 @@ enum class Verdict
 struct CellEnd
 {
   Eigen::Vector3d position;  ///< in the scene's frame
-  double radius;             ///< half the section's larger size
+  double radius;             ///< see GripAxis::largestRadius()
 };
 
 /// A piece of a part's axis between two places.
@@ -59,9 +59,12 @@ Verdict below(double value, double threshold, double margin)
 Verdict sectionFits(const Cell& cell, double capture_radius)
 {
   const Eigen::Vector2d half_sizes = cell.axis->largestHalfSizes(cell.from, cell.to);
-  if (cell.axis->section() == GripAxis::Section::rectangular)
+  const GripAxis::Section section = cell.axis->section();
+  if (section == GripAxis::Section::rectangular)
     return std::min(below(half_sizes.norm(), capture_radius, cell.margin), Verdict::maybe);
-  const double radius = half_sizes.maxCoeff();
+  const double radius = cell.axis->largestRadius(cell.from, cell.to);
+  if (section == GripAxis::Section::rounded || section == GripAxis::Section::oval)
+    return below(radius, capture_radius, cell.margin);
   const double flat_side_radius = radius * radius / half_sizes.minCoeff();
   const Verdict flat_side = std::max(below(flat_side_radius, capture_radius, cell.margin), Verdict::maybe);
   return std::min(below(radius, capture_radius, cell.margin), flat_side);
@@ -114,7 +117,7 @@ Grip gripOf(const Scene& scene, const Run& run)
   for (const Cell* cell : run) {
     if (grip.parts.empty() || grip.parts.back() != cell->part)
       grip.parts.push_back(cell->part);
-    grip.radius = std::max(grip.radius, cell->axis->largestHalfSizes(cell->from, cell->to).maxCoeff());
+    grip.radius = std::max(grip.radius, cell->axis->largestRadius(cell->from, cell->to));
     grip.length += cell->length;
     if (grip.axis.empty())
       append(cell->first);
@@ -140,8 +143,9 @@ struct Found
 class GripSearch
 {
 public:
-  GripSearch(const Scene& scene, const GraspDefinition& definition, const MarginAt& margin)
-      : scene_(scene), definition_(definition), margin_(margin), surroundings_(scene)
+  GripSearch(const Scene& scene, const GraspDefinition& definition, const MarginAt& margin,
+             const std::vector<Eigen::Vector3d>& cameras)
+      : scene_(scene), definition_(definition), margin_(margin), cameras_(cameras), surroundings_(scene)
   {
   }
 
@@ -165,6 +169,8 @@ public:
         cell.length = insideEarlier(axes, k, middle) ? 0.0 : length;
         cell.margin = margin_(middle);
         cell.verdict = sectionFits(cell, definition_.capture_radius);
+        if (allSeeSlimSide(cell))
+          cell.verdict = std::min(cell.verdict, Verdict::maybe);
         result.push_back(cell);
       }
     }
@@ -198,7 +204,7 @@ private:
 
   CellEnd endAt(const PartAxis& along, double place) const
   {
-    return {onAxis(along, place), along.axis.halfSizes(place).maxCoeff()};
+    return {onAxis(along, place), along.axis.largestRadius(place, place)};
   }
 
   bool insideEarlier(const std::vector<PartAxis>& axes, std::size_t k, const Eigen::Vector3d& point) const
@@ -206,6 +212,25 @@ private:
     return std::any_of(axes.begin(), axes.begin() + static_cast<std::ptrdiff_t>(k), [&](const PartAxis& earlier) {
       const Part& part = scene_.parts()[earlier.part];
       return contains(part.shape, part.T_scene_shape.inverse() * point);
+    });
+  }
+
+  /// Whether no camera sees how long a rounded or oval section is, because it looks along it.
+  bool allSeeSlimSide(const Cell& cell) const
+  {
+    const GripAxis::Section section = cell.axis->section();
+    if (cameras_.empty() || !(section == GripAxis::Section::rounded || section == GripAxis::Section::oval))
+      return false;
+    const double middle = 0.5 * (cell.from + cell.to);
+    const Eigen::Vector2d half_sizes = cell.axis->halfSizes(middle);
+    if (half_sizes.maxCoeff() - half_sizes.minCoeff() < cell.margin)
+      return false;
+    const Eigen::Isometry3d T_section_scene =
+        (scene_.parts()[cell.part].T_scene_shape * cell.axis->sectionFrame(middle)).inverse();
+    const bool long_x = half_sizes.x() > half_sizes.y();
+    return std::all_of(cameras_.begin(), cameras_.end(), [&](const Eigen::Vector3d& camera) {
+      const Eigen::Vector3d towards = (T_section_scene * camera).cwiseAbs();
+      return long_x == (towards.x() > towards.y());
     });
   }
 
@@ -228,15 +253,17 @@ private:
   const Scene& scene_;
   const GraspDefinition& definition_;
   const MarginAt& margin_;
+  const std::vector<Eigen::Vector3d>& cameras_;
   Surroundings surroundings_;
 };
 
 }  // namespace
 
-GripLabels::GripLabels(const Scene& scene, const GraspDefinition& definition, const MarginAt& margin)
+GripLabels::GripLabels(const Scene& scene, const GraspDefinition& definition, const MarginAt& margin,
+                       const std::vector<Eigen::Vector3d>& cameras)
     : parts_(scene.parts().size())
 {
-  const GripSearch search(scene, definition, margin);
+  const GripSearch search(scene, definition, margin, cameras);
   for (std::size_t part = 0; part < scene.parts().size(); ++part) {
     const std::vector<std::vector<PartAxis>> choices = axisAlternatives(scene, part);
     std::vector<std::vector<Cell>> cells(choices.size());

@@ -23,7 +23,7 @@ struct Grip
   double radius = 0.0;                ///< m, largest radius of the surface
   double length = 0.0;                ///< m, along its axis
   std::vector<Eigen::Vector3d> axis;  ///< m, points along its axis, in the scene's frame
-  std::vector<double> radii;          ///< m, of the surface at these points: half the section's larger size
+  std::vector<double> radii;          ///< m, of the surface at these points, see GripAxis::largestRadius()
   /// Centre of a ball, in the scene's frame; empty for other grips. A ball can be gripped about any axis through it. It
   /// is a solid whose axis is at most 1.5 times as long as the solid is wide, and that tapers to less than half of its
   /// width at both ends of the axis.
@@ -44,6 +44,8 @@ using MarginAt = std::function<double(const Eigen::Vector3d& point_scene)>;
 ///  - cells of a run that would be a grip if radius, clearance and length changed by the margin;
 ///  - round cells that fit into the hand but are too flat: their radius of curvature exceeds the capture radius;
 ///  - rectangular cells that fit into the hand;
+///  - rounded and oval cells that fit, if every camera looks at their slim side: it is within 45 degrees of the
+///    section's long axis, and the half sizes differ by the margin or more;
 ///  - cells of a run in the background, with any clearance, that would be a grip without the margin or with it.
 ///
 /// Of several axes of a part, the first one with a grip counts, or else the first one with doubtful cells.
@@ -51,7 +53,10 @@ class GripLabels
 {
 public:
   /// @throw std::length_error for a scene with more than 254 grips.
-  GripLabels(const Scene& scene, const GraspDefinition& definition, const MarginAt& margin);
+  /// @param cameras positions of the cameras that see the scene, in its frame; none: no section is doubtful because of
+  /// the side that is seen
+  GripLabels(const Scene& scene, const GraspDefinition& definition, const MarginAt& margin,
+             const std::vector<Eigen::Vector3d>& cameras = {});
 
   const std::vector<Grip>& grips() const { return grips_; }  ///< by label
 

@@ -119,12 +119,16 @@ GroundTruth groundTruth(const View& view, const Frame& frame, const SensorModel&
                         const GraspDefinition& definition, const std::vector<Eigen::Isometry3d>& other_cameras)
 {
   const Eigen::Isometry3d T_camera_scene = view.T_scene_camera.inverse();
-  const GripLabels labels(view.scene, definition, [&](const Eigen::Vector3d& point_scene) {
+  std::vector<Eigen::Vector3d> cameras = {view.T_scene_camera.translation()};
+  for (const Eigen::Isometry3d& T_scene_other : other_cameras)
+    cameras.emplace_back(T_scene_other.translation());
+  const auto margin_at = [&](const Eigen::Vector3d& point_scene) {
     double margin = std::max(kLeastMargin, model.depthQuantum((T_camera_scene * point_scene).z()));
     for (const Eigen::Isometry3d& T_scene_other : other_cameras)
       margin = std::max(margin, model.depthQuantum((T_scene_other.inverse() * point_scene).z()));
     return margin;
-  });
+  };
+  const GripLabels labels(view.scene, definition, margin_at, cameras);
 
   GroundTruth truth;
   truth.labels = labelsOfPixels(view, frame, model, labels);

@@ -43,7 +43,7 @@ struct GroundTruth
 /// Clearance is measured all around, in the exact geometry. This is stricter than in the paper, whose annotator saw one
 /// side. A section is doubtful if a quantity differs from its threshold by less than a margin. The margin is the larger
 /// one of 1 mm and the sensor's depth quantum at that range. A slim bar is doubtful, too, if its cross-section fits
-/// into the hand but is rectangular or too flat.
+/// into the hand but is rectangular or too flat; a rounded or oval one, if every camera looks at its slim side.
 ///
 /// @param frame captured by a sensor of that model from the view
 /// @param other_cameras  poses in the scene of further sensors of that model. The margin is the largest one of all

@@ -63,6 +63,16 @@ bool isSolid(const EllipticCylinder& c)
   return positive(c.semi_axis_x) && positive(c.semi_axis_y) && positive(c.height);
 }
 
+bool isSolid(const RoundedBox& b)
+{
+  return isSolid(Box{b.size}) && b.corner_radius >= 0.0 && b.corner_radius <= 0.5 * b.size.head<2>().minCoeff();
+}
+
+bool isSolid(const Oval& o)
+{
+  return positive(o.semi_axis_x) && positive(o.semi_axis_y) && positive(o.height) && positive(o.top_scale);
+}
+
 bool isSolid(const Revolution& r)
 {
   const std::size_t last = r.profile.size() - 1;
@@ -130,6 +140,16 @@ double reach(const EllipticCylinder& c)
   return std::hypot(std::max(c.semi_axis_x, c.semi_axis_y), 0.5 * c.height);
 }
 
+double reach(const RoundedBox& b)
+{
+  return 0.5 * b.size.norm();
+}
+
+double reach(const Oval& o)
+{
+  return std::hypot(std::max(1.0, o.top_scale) * std::max(o.semi_axis_x, o.semi_axis_y), 0.5 * o.height);
+}
+
 double reach(const Revolution& r)
 {
   double farthest = 0.0;
@@ -195,6 +215,17 @@ Eigen::AlignedBox3d box(const EllipticCylinder& c)
   return symmetricBox(c.semi_axis_x, c.semi_axis_y, 0.5 * c.height);
 }
 
+Eigen::AlignedBox3d box(const RoundedBox& b)
+{
+  return box(Box{b.size});
+}
+
+Eigen::AlignedBox3d box(const Oval& o)
+{
+  const double widest = std::max(1.0, o.top_scale);
+  return symmetricBox(widest * o.semi_axis_x, widest * o.semi_axis_y, 0.5 * o.height);
+}
+
 Eigen::AlignedBox3d box(const Revolution& r)
 {
   const double radius = widestRadius(r);
@@ -249,6 +280,20 @@ bool inside(const EllipticCylinder& c, const Eigen::Vector3d& p)
 {
   return std::abs(p.z()) <= 0.5 * c.height &&
          Eigen::Vector2d(p.x() / c.semi_axis_x, p.y() / c.semi_axis_y).squaredNorm() <= 1.0;
+}
+
+bool inside(const RoundedBox& b, const Eigen::Vector3d& p)
+{
+  const Eigen::Vector2d straight = 0.5 * b.size.head<2>() - Eigen::Vector2d::Constant(b.corner_radius);
+  const Eigen::Vector2d into_corner = (p.head<2>().cwiseAbs() - straight).cwiseMax(0.0);
+  return inside(Box{b.size}, p) && into_corner.squaredNorm() <= b.corner_radius * b.corner_radius;
+}
+
+bool inside(const Oval& o, const Eigen::Vector3d& p)
+{
+  const double scale = 1.0 + (o.top_scale - 1.0) * (p.z() / o.height + 0.5);
+  return std::abs(p.z()) <= 0.5 * o.height &&
+         Eigen::Vector2d(p.x() / o.semi_axis_x, p.y() / o.semi_axis_y).norm() <= scale;
 }
 
 bool inside(const Revolution& r, const Eigen::Vector3d& p)

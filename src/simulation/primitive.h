@@ -78,6 +78,22 @@ struct EllipticCylinder
   double height;
 };
 
+/// A bar along z whose section is a rectangle with rounded corners.
+struct RoundedBox
+{
+  Eigen::Vector3d size;  ///< along x, y and z
+  double corner_radius;  ///< of the edges along z, at most half the smaller one of the sizes along x and y; 0: sharp
+};
+
+/// A bar along z whose section is an ellipse. Both semi-axes change by one factor from the bottom to the top.
+struct Oval
+{
+  double semi_axis_x;  ///< at z = -height / 2
+  double semi_axis_y;  ///< at z = -height / 2
+  double height;
+  double top_scale = 1.0;  ///< semi-axes at z = +height / 2 relative to those at the bottom
+};
+
 /// A solid of revolution about z. It consists of the frusta between consecutive stations of its profile.
 struct Revolution
 {
@@ -89,8 +105,8 @@ struct Revolution
   std::vector<Station> profile;  ///< at least two, in order of ascending z
 };
 
-using Primitive =
-    std::variant<Box, Sphere, Cylinder, Frustum, TorusArc, HalfSpace, Ellipsoid, Capsule, EllipticCylinder, Revolution>;
+using Primitive = std::variant<Box, Sphere, Cylinder, Frustum, TorusArc, HalfSpace, Ellipsoid, Capsule,
+                               EllipticCylinder, RoundedBox, Oval, Revolution>;
 
 /// Checks a solid. @throw std::invalid_argument if its dimensions do not describe a solid.
 void validate(const Primitive& primitive);

@@ -214,6 +214,46 @@ double firstCrossing(const EllipticCylinder& cylinder, const Ray& ray, double t_
   return firstCrossing(intersection(round, slab(-half, half, ray.origin.z(), ray.direction.z())), t_min);
 }
 
+/// The section is the union of two rectangles and four circles, and it is convex: the line is inside from where it
+/// first enters one of them to where it last leaves one.
+double firstCrossing(const RoundedBox& box, const Ray& ray, double t_min)
+{
+  const double radius = box.corner_radius;
+  const Eigen::Vector2d half = 0.5 * box.size.head<2>();
+  const Eigen::Vector2d straight = half - Eigen::Vector2d::Constant(radius);
+  Interval inside = kNowhere;
+  const auto include = [&](const Interval& piece) {
+    if (!piece.empty())
+      inside = hull(inside, piece);
+  };
+  const auto between = [&](int axis, double limit) {
+    return slab(-limit, limit, ray.origin[axis], ray.direction[axis]);
+  };
+  include(intersection(between(0, half.x()), between(1, straight.y())));
+  include(intersection(between(0, straight.x()), between(1, half.y())));
+  const double across = ray.direction.head<2>().squaredNorm();
+  for (const double x : {-straight.x(), straight.x()}) {
+    for (const double y : {-straight.y(), straight.y()}) {
+      const Eigen::Vector2d o = ray.origin.head<2>() - Eigen::Vector2d(x, y);
+      if (radius > 0.0)
+        include(insideQuadric(across, o.dot(ray.direction.head<2>()), o.squaredNorm() - radius * radius));
+    }
+  }
+  return firstCrossing(intersection(inside, between(2, 0.5 * box.size.z())), t_min);
+}
+
+/// With y stretched so that the section is round, it is a frustum.
+double firstCrossing(const Oval& oval, const Ray& ray, double t_min)
+{
+  const double half = 0.5 * oval.height;
+  const double stretch = oval.semi_axis_x / oval.semi_axis_y;
+  Ray stretched = ray;
+  stretched.origin.y() *= stretch;
+  stretched.direction.y() *= stretch;
+  const double top = oval.top_scale * oval.semi_axis_x;
+  return firstCrossing(insideFrustum({-half, oval.semi_axis_x}, {half, top}, stretched), t_min);
+}
+
 /// The ray passes the pieces in the order of z. Neighbouring pieces have exactly the same t where they meet, so that
 /// touching intervals are joined.
 double firstCrossing(const Revolution& revolution, const Ray& ray, double t_min)

@@ -63,7 +63,7 @@ double Surroundings::clearance(std::size_t part, const GripAxis& axis, double fr
       const Eigen::Isometry3d T_other_section = other.T_shape_scene * T_scene_shape * axis.sectionFrame(place);
       const Eigen::Vector2d half_sizes = axis.halfSizes(place);
       for (const Eigen::Vector2d& direction : kAround) {
-        const double surface = outlineRadius(axis.section(), half_sizes, direction) + kOffSurface;
+        const double surface = axis.outlineRadius(half_sizes, direction) + kOffSurface;
         const Eigen::Vector3d outwards = T_other_section.linear().leftCols<2>() * direction;
         const Eigen::Vector3d start = T_other_section.translation() + surface * outwards;
         if (!own_far_side && contains(*other.shape, start))

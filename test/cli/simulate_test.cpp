@@ -114,12 +114,30 @@ TEST_F(SimulateTest, SameArgumentsGiveTheSameBytes)
     EXPECT_EQ(content("a." + type), content("b." + type));
 }
 
+TEST_F(SimulateTest, BackgroundTiltAndDistanceChangeWhatIsSeenAndNotWhatIsThere)
+{
+  ASSERT_EQ(simulate("--scene kitchen1 --out a.pcd --objects a.json"), 0) << content("stderr");
+  ASSERT_EQ(simulate("--scene kitchen1 --background walls --out b.pcd --objects b.json"), 0) << content("stderr");
+  EXPECT_EQ(content("a.pcd"), content("b.pcd"));
+  const nlohmann::json a = nlohmann::json::parse(content("a.json"));
+  for (const std::string options : {"--background open", "--tilt 60 --distance 1.2"}) {
+    ASSERT_EQ(simulate("--scene kitchen1 --out b.pcd --objects b.json " + options), 0) << content("stderr");
+    EXPECT_NE(content("a.pcd"), content("b.pcd"));
+    const nlohmann::json b = nlohmann::json::parse(content("b.json"));
+    EXPECT_EQ(a["camera"]["position"] == b["camera"]["position"], options == "--background open");
+  }
+  EXPECT_EQ(simulate("--scene shadow --tilt 10 --out b.pcd"), 1);
+  EXPECT_NE(content("stderr").find("looks along the vertical"), std::string::npos) << content("stderr");
+}
+
 TEST_F(SimulateTest, RefusesBadUsage)
 {
-  for (const char* arguments : {"", "--scene table", "--scene tables --out a.pcd",
-                                "--scene table --out a.pcd --seed -1", "--scene table --out a.pcd --capture-radius 0",
-                                "--scene table --out a.pcd --turn 181", "--scene table --out a.pcd --turn nan",
-                                "--scene table --out a.pcd --capture-radius nan", "--scene table --list"}) {
+  for (const char* arguments :
+       {"", "--scene table", "--scene tables --out a.pcd", "--scene table --out a.pcd --seed -1",
+        "--scene table --out a.pcd --capture-radius 0", "--scene table --out a.pcd --turn 181",
+        "--scene table --out a.pcd --turn nan", "--scene table --out a.pcd --capture-radius nan",
+        "--scene table --list", "--scene table --out a.pcd --background wall", "--scene table --out a.pcd --tilt 76",
+        "--scene table --out a.pcd --distance 0.3"}) {
     EXPECT_EQ(simulate(arguments), 2) << arguments;
     EXPECT_FALSE(content("stderr").empty()) << arguments;
   }

@@ -69,6 +69,23 @@ inline double implicit(const EllipticCylinder& c, const Eigen::Vector3d& p)
   return std::max(std::abs(p.z()) - 0.5 * c.height, round);
 }
 
+inline double implicit(const RoundedBox& b, const Eigen::Vector3d& p)
+{
+  const Eigen::Vector2d beyond =
+      p.head<2>().cwiseAbs() - 0.5 * b.size.head<2>() + Eigen::Vector2d::Constant(b.corner_radius);
+  const double round = beyond.cwiseMax(0.0).norm() + std::min(0.0, beyond.maxCoeff()) - b.corner_radius;
+  return std::max(std::abs(p.z()) - 0.5 * b.size.z(), round);
+}
+
+/// Below the distance by a factor of up to the ratio of the semi-axes.
+inline double implicit(const Oval& o, const Eigen::Vector3d& p)
+{
+  const double scale = 1.0 + (o.top_scale - 1.0) * (p.z() / o.height + 0.5);
+  const double round =
+      (std::hypot(p.x() / o.semi_axis_x, p.y() / o.semi_axis_y) - scale) * std::min(o.semi_axis_x, o.semi_axis_y);
+  return std::max(std::abs(p.z()) - 0.5 * o.height, round);
+}
+
 inline double implicit(const Revolution& r, const Eigen::Vector3d& p)
 {
   double nearest = std::max(r.profile.front().z - p.z(), p.z() - r.profile.back().z);

@@ -67,14 +67,15 @@ inline View allKinds()
   scene.add(HalfSpace{}, at(0.0, 0.0, 1.6) * Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()));
   scene.add(Box{{2.0, 0.03, 1.0}}, at(0.0, 0.25, 1.0));
   const Eigen::AngleAxisd z_up(0.5 * kPi, Eigen::Vector3d::UnitX());
-  double x = -0.4;
+  double x = -0.46;
   for (const Primitive& shape :
        {Primitive(Sphere{0.05}), Primitive(Cylinder{0.04, 0.1, 0.005}), Primitive(Frustum{0.04, 0.02, 0.1}),
         Primitive(TorusArc{0.04, 0.008, 1.4}), Primitive(Ellipsoid{{0.04, 0.03, 0.05}}), Primitive(Capsule{0.02, 0.06}),
-        Primitive(EllipticCylinder{0.03, 0.02, 0.08}),
+        Primitive(EllipticCylinder{0.03, 0.02, 0.08}), Primitive(RoundedBox{{0.05, 0.03, 0.08}, 0.008}),
+        Primitive(Oval{0.03, 0.02, 0.08, 0.6}),
         Primitive(Revolution{{{-0.06, 0.03}, {0.0, 0.033}, {0.03, 0.012}, {0.06, 0.013}}})}) {
     scene.add(shape, at(x, 0.1, 0.9) * z_up * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()));
-    x += 0.11;
+    x += 0.1;
   }
   scene.add(Sphere{0.1}, at(0.0, -0.1, 0.8), Surface::transparent);
   scene.add(Sphere{0.1}, at(0.6, -0.3, 2.0), Surface::transparent);  // behind the wall

@@ -4,6 +4,7 @@
 #include "nodelets/cameras/simulated_camera_parameters.h"
 #include "nodelets/roscpp/name_claim.h"
 #include "nodelets/roscpp/newest_only_worker.h"
+#include "simulation/background.h"
 #include "simulation/camera_orbit.h"
 #include "simulation/placement.h"
 #include "simulation/scene_library.h"
@@ -104,7 +105,8 @@ void SimulatedCameraNodelet::onInit()
   try {
     name_claim_.claim(getName());
     parameters_ = simulatedCameraParameters(getPrivateNodeHandle());
-    view_ = viewFromAside(makeScene(parameters_.scene, parameters_.seed), kDegree * parameters_.turn_deg);
+    const Background background = backgroundFromName(parameters_.background);
+    view_ = viewFromAside(makeScene(parameters_.scene, parameters_.seed, background), kDegree * parameters_.turn_deg);
   } catch (const std::exception& error) {
     // The nodelet loader does not print the exception.
     NODELET_FATAL_STREAM(getName() << " does not start: " << error.what());

@@ -1,6 +1,7 @@
 #include "nodelets/cameras/simulated_camera_parameters.h"
 
 #include "nodelets/parameters/parameter_reader.h"
+#include "simulation/background.h"
 #include "simulation/scene_library.h"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ SimulatedCameraParameters simulatedCameraParameters(ParameterReader read)
   using Real = Range<double>;
   SimulatedCameraParameters result;
   readWord(read, "scene", result.scene, sceneNames());
+  readWord(read, "background", result.background, backgroundNames());
   const Range<std::uint64_t> seeds{0, (std::uint64_t{1} << 53) - 1};
   read("seed", result.seed, seeds, "", "");
   read("noise_seed", result.noise_seed, seeds, "", "");

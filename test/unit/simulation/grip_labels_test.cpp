@@ -266,6 +266,125 @@ TEST(GripLabels, AnEllipticSectionMustNotBeFlat)
   EXPECT_EQ(label(near_wall).grips().size(), 1U) << "8.5 mm beyond the end of the long axis";
 }
 
+double radiusOf(const Primitive& solid)
+{
+  const std::vector<Grip> grips = gripsOfSolid(solid, Eigen::Isometry3d::Identity());
+  return grips.size() == 1 ? grips.front().radius : 0.0;
+}
+
+TEST(GripLabels, RoundedBoxIsHeldIfTheCircleAroundItsSectionFits)
+{
+  const auto grip = [](double corner_radius) { return Primitive(RoundedBox{{0.04, 0.028, 0.1}, corner_radius}); };
+  EXPECT_NEAR(radiusOf(grip(0.0)), std::hypot(0.02, 0.014), 1e-12);             // 24.41 mm
+  EXPECT_NEAR(radiusOf(grip(0.006)), std::hypot(0.014, 0.008) + 0.006, 1e-12);  // 22.12 mm
+  EXPECT_NEAR(radiusOf(grip(0.014)), 0.02, 1e-12);
+  EXPECT_EQ(labelOf(grip(0.0)), 1U);
+  EXPECT_EQ(labelOf(grip(0.0), 0.0015), 1U);
+  EXPECT_EQ(labelOf(grip(0.0), 0.0017), kDoubtful) << "1.59 mm to spare";
+  EXPECT_EQ(labelOf(RoundedBox{{0.044, 0.032, 0.1}, 0.0}), kNotGraspable);  // 27.2 mm
+  EXPECT_EQ(labelOf(RoundedBox{{0.044, 0.032, 0.1}, 0.006}), 1U);           // 24.87 mm
+  EXPECT_EQ(labelOf(RoundedBox{{0.04, 0.028, 0.029}, 0.006}), kNotGraspable);
+  EXPECT_EQ(labelOf(RoundedBox{{0.04, 0.028, 0.031}, 0.006}), 1U);
+}
+
+TEST(GripLabels, OvalIsHeldWhereItsLongAxisFits)
+{
+  EXPECT_NEAR(radiusOf(Oval{0.02, 0.012, 0.1}), 0.02, 1e-12) << "33 mm at the flat side: that does not matter";
+  EXPECT_EQ(labelOf(Oval{0.027, 0.012, 0.1}), kNotGraspable);
+  // The long semi-axis is 26 mm at 60 % of the height, which is the end of a cell.
+  Scene tapered;
+  tapered.add(Oval{0.02, 0.012, 0.1, 1.5}, Eigen::Isometry3d::Identity());
+  const GripLabels labels = label(tapered);
+  ASSERT_EQ(labels.grips().size(), 1U);
+  EXPECT_NEAR(labels.grips().front().length, 0.06, 0.0041);
+  EXPECT_LT(labels.grips().front().radius, 0.026);
+}
+
+TEST(GripLabels, ClearanceOfARoundedBoxIsMeasuredFromItsSurface)
+{
+  const auto grips = [](const Primitive& solid, double wall) {
+    Scene scene;
+    scene.add(solid, Eigen::Isometry3d::Identity());
+    scene.add(HalfSpace{}, wallAt(wall));
+    return label(scene).grips().size();
+  };
+  EXPECT_EQ(grips(RoundedBox{{0.04, 0.028, 0.1}, 0.006}, 0.0279), 0U);
+  EXPECT_EQ(grips(RoundedBox{{0.04, 0.028, 0.1}, 0.006}, 0.0281), 1U);
+  EXPECT_EQ(grips(RoundedBox{{0.028, 0.04, 0.1}, 0.006}, 0.0219), 0U);
+  EXPECT_EQ(grips(RoundedBox{{0.028, 0.04, 0.1}, 0.006}, 0.0221), 1U);
+  EXPECT_EQ(grips(Oval{0.02, 0.012, 0.1}, 0.0281), 1U);
+  EXPECT_EQ(grips(Oval{0.02, 0.012, 0.1}, 0.0279), 0U);
+}
+
+TEST(GripLabels, WhatASingleViewOfTheSlimSideCannotKnowIsDoubtful)
+{
+  constexpr double kMargin = 0.001;
+  const auto seenFrom = [&](const Primitive& solid, const std::vector<double>& degrees) {
+    Scene scene;
+    scene.add(solid, Eigen::Isometry3d::Identity());
+    std::vector<Eigen::Vector3d> cameras;
+    for (const double angle : degrees)
+      cameras.emplace_back(std::cos(angle * kDegree), std::sin(angle * kDegree), 0.5);
+    const GripLabels labels(
+        scene, kDefinition, [](const Eigen::Vector3d&) { return kMargin; }, cameras);
+    return labels.label(0, Eigen::Vector3d::Zero());
+  };
+  const Oval oval{0.02, 0.012, 0.1};  // long along x
+  for (const double slim : {0.0, 44.0, -44.0, 136.0, 180.0})
+    EXPECT_EQ(seenFrom(oval, {slim}), kDoubtful) << slim;
+  for (const double broad : {46.0, 90.0, 134.0, -90.0})
+    EXPECT_EQ(seenFrom(oval, {broad}), 1U) << broad;
+  EXPECT_EQ(seenFrom(oval, {0.0, 90.0}), 1U) << "the second camera knows";
+  EXPECT_EQ(seenFrom(oval, {0.0, 10.0}), kDoubtful);
+  EXPECT_EQ(seenFrom(oval, {}), 1U);
+  EXPECT_EQ(seenFrom(Oval{0.02, 0.0195, 0.1}, {0.0}), 1U) << "round within the margin";
+  EXPECT_EQ(seenFrom(RoundedBox{{0.04, 0.028, 0.1}, 0.006}, {0.0}), kDoubtful);
+  EXPECT_EQ(seenFrom(RoundedBox{{0.04, 0.028, 0.1}, 0.006}, {90.0}), 1U);
+  EXPECT_EQ(seenFrom(Oval{0.03, 0.012, 0.1}, {0.0}), kNotGraspable) << "it does not fit, whatever the camera knows";
+}
+
+TEST(GripLabels, DoorHandleNeedsRoomForTheFinger)
+{
+  // A bar before a front; `to_spare` is the room behind it beyond what the finger needs.
+  const auto barBeforeFront = [](double finger, double to_spare, double margin) {
+    constexpr double radius = 0.006;
+    Scene scene;
+    scene.add(Cylinder{radius, 0.12}, Eigen::Isometry3d::Identity());
+    scene.beginObject("front", Role::front);
+    scene.add(Box{{0.02, 0.6, 0.6}}, at(radius + finger + to_spare + 0.01, 0.0, 0.0));
+    GraspDefinition definition;
+    definition.clearance = finger;
+    return GripLabels(scene, definition, [margin](const Eigen::Vector3d&) { return margin; })
+        .label(0, Eigen::Vector3d::Zero());
+  };
+  for (const double finger : {0.008, 0.012, 0.02}) {
+    for (const double difference : {0.006, 0.008, 0.01}) {
+      for (const double margin : {0.0, 0.0019, 0.0059}) {
+        EXPECT_EQ(barBeforeFront(finger, difference, margin), 1U) << finger << " " << difference << " " << margin;
+        EXPECT_EQ(barBeforeFront(finger, -difference, margin), kNotGraspable)
+            << finger << " " << difference << " " << margin;
+      }
+    }
+    EXPECT_EQ(barBeforeFront(finger, 0.006, 0.0065), kDoubtful) << "one disparity step of an Xtion at 1.5 m";
+    EXPECT_EQ(barBeforeFront(finger, -0.006, 0.0065), kDoubtful);
+  }
+}
+
+TEST(GripLabels, BarsOfTheBackgroundAreDoubtful)
+{
+  const auto labelOfBar = [](Role role) {
+    Scene scene;
+    scene.beginObject("bar", role);
+    scene.add(Cylinder{0.01, 0.3}, Eigen::Isometry3d::Identity());
+    scene.add(Box{{0.3, 0.3, 0.3}}, at(1.0, 0.0, 0.0));
+    const GripLabels labels = label(scene);
+    EXPECT_EQ(labels.label(1, Eigen::Vector3d::Zero()), kNotGraspable);
+    return labels.label(0, Eigen::Vector3d::Zero());
+  };
+  EXPECT_EQ(labelOfBar(Role::thing), 1U);
+  EXPECT_EQ(labelOfBar(Role::background), kDoubtful);
+}
+
 TEST(GripLabels, SpheresAndEllipsoidsAreHeldAboutAnyOfTheirAxes)
 {
   EXPECT_EQ(labelOf(Sphere{0.025}), 1U);

@@ -199,6 +199,11 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair<const char*, Primitive>("Ellipsoid", Ellipsoid{{0.04, 0.03, 0.05}}),
                     std::pair<const char*, Primitive>("Capsule", Capsule{0.02, 0.06}),
                     std::pair<const char*, Primitive>("EllipticCylinder", EllipticCylinder{0.03, 0.02, 0.08}),
+                    std::pair<const char*, Primitive>("RoundedBox", RoundedBox{{0.04, 0.028, 0.1}, 0.006}),
+                    std::pair<const char*, Primitive>("SharpBox", RoundedBox{{0.04, 0.028, 0.1}, 0.0}),
+                    std::pair<const char*, Primitive>("Stadium", RoundedBox{{0.04, 0.028, 0.1}, 0.014}),
+                    std::pair<const char*, Primitive>("Oval", Oval{0.02, 0.014, 0.1, 0.7}),
+                    std::pair<const char*, Primitive>("WideningOval", Oval{0.012, 0.02, 0.06, 2.5}),
                     std::pair<const char*, Primitive>(
                         "Bottle", Revolution{{{-0.08, 0.03}, {0.02, 0.033}, {0.05, 0.012}, {0.08, 0.013}}}),
                     std::pair<const char*, Primitive>(
@@ -252,6 +257,14 @@ TEST(PrimitiveEdgeCases, RaysAlongAxesPlanesAndGenerators)
   expectHit(Capsule{0.02, 0.06}, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, 0.95);
   expectHit(EllipticCylinder{0.03, 0.02, 0.08}, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, 0.96);
   expectHit(EllipticCylinder{0.03, 0.02, 0.08}, {0.031, 0.0, 1.0}, {0.0, 0.0, -1.0}, kNoIntersection);
+  const RoundedBox rounded{{0.04, 0.028, 0.1}, 0.006};
+  expectHit(rounded, {1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, 0.98);
+  expectHit(rounded, {1.0, 0.0079, 0.0}, {-1.0, 0.0, 0.0}, 0.98);
+  expectHit(rounded, {1.0, 0.0116, 0.0}, {-1.0, 0.0, 0.0}, 0.9812);  // a corner: 3.6 of 6 mm up, 4.8 mm out
+  expectHit(rounded, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, 0.95);
+  expectHit(rounded, {0.0195, 0.0135, 1.0}, {0.0, 0.0, -1.0}, kNoIntersection);  // past a corner
+  expectHit(Oval{0.02, 0.014, 0.1, 0.5}, {1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, 0.985);
+  expectHit(Oval{0.02, 0.014, 0.1, 0.5}, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, 0.95);
 
   // Through both pieces, along the plane in which they meet, and past the waist between two bulges.
   const Revolution hourglass{{{-0.05, 0.03}, {0.0, 0.01}, {0.05, 0.03}}};
@@ -265,15 +278,26 @@ TEST(PrimitiveValidation, RefusesDimensionsThatDescribeNoSolid)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Scene scene;
-  for (const Primitive& bad :
-       {Primitive(Box{{0.1, 0.0, 0.1}}), Primitive(Sphere{-1.0}), Primitive(Cylinder{0.04, nan}),
-        Primitive(Cylinder{0.04, 0.1, 0.04}), Primitive(Frustum{0.04, 0.004, 0.1, 0.005}),
-        Primitive(TorusArc{0.01, 0.02, 1.0}), Primitive(TorusArc{0.05, 0.01, 4.0}),
-        Primitive(Ellipsoid{{0.1, 0.1, 0.0}}), Primitive(Capsule{0.02, 0.0}),
-        Primitive(EllipticCylinder{0.02, -0.01, 0.1}), Primitive(Revolution{}), Primitive(Revolution{{{0.0, 0.01}}}),
-        Primitive(Revolution{{{0.0, 0.0}, {0.1, 0.0}}}), Primitive(Revolution{{{0.0, 0.01}, {0.0, 0.02}}}),
-        Primitive(Revolution{{{0.0, 0.01}, {0.1, 0.0}, {0.2, 0.01}}}),
-        Primitive(Revolution{{{0.0, 0.01}, {nan, 0.01}}})})
+  for (const Primitive& bad : {Primitive(Box{{0.1, 0.0, 0.1}}),
+                               Primitive(Sphere{-1.0}),
+                               Primitive(Cylinder{0.04, nan}),
+                               Primitive(Cylinder{0.04, 0.1, 0.04}),
+                               Primitive(Frustum{0.04, 0.004, 0.1, 0.005}),
+                               Primitive(TorusArc{0.01, 0.02, 1.0}),
+                               Primitive(TorusArc{0.05, 0.01, 4.0}),
+                               Primitive(Ellipsoid{{0.1, 0.1, 0.0}}),
+                               Primitive(Capsule{0.02, 0.0}),
+                               Primitive(EllipticCylinder{0.02, -0.01, 0.1}),
+                               Primitive(RoundedBox{{0.04, 0.028, 0.1}, 0.015}),
+                               Primitive(RoundedBox{{0.04, 0.028, 0.1}, -0.001}),
+                               Primitive(Oval{0.02, 0.014, 0.1, 0.0}),
+                               Primitive(Oval{0.02, nan, 0.1}),
+                               Primitive(Revolution{}),
+                               Primitive(Revolution{{{0.0, 0.01}}}),
+                               Primitive(Revolution{{{0.0, 0.0}, {0.1, 0.0}}}),
+                               Primitive(Revolution{{{0.0, 0.01}, {0.0, 0.02}}}),
+                               Primitive(Revolution{{{0.0, 0.01}, {0.1, 0.0}, {0.2, 0.01}}}),
+                               Primitive(Revolution{{{0.0, 0.01}, {nan, 0.01}}})})
     EXPECT_THROW(scene.add(bad, Eigen::Isometry3d::Identity()), std::invalid_argument);
   EXPECT_TRUE(scene.parts().empty());
 }

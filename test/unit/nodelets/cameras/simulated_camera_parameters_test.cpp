@@ -35,8 +35,9 @@ TEST(SimulatedCameraParameters, DefaultsAreThoseOfTheYamlFile)
 {
   const YAML::Node file = YAML::LoadFile(GRASP_AFFORDANCES_SOURCE_DIR "/config/simulated_camera.yaml");
   const SimulatedCameraParameters defaults;
-  EXPECT_EQ(file.size(), 11U);
+  EXPECT_EQ(file.size(), 12U);
   EXPECT_EQ(file["scene"].as<std::string>(), defaults.scene);
+  EXPECT_EQ(file["background"].as<std::string>(), defaults.background);
   EXPECT_EQ(file["seed"].as<std::uint64_t>(), defaults.seed);
   EXPECT_EQ(file["noise_seed"].as<std::uint64_t>(), defaults.noise_seed);
   EXPECT_EQ(file["turn_deg"].as<double>(), defaults.turn_deg);
@@ -53,6 +54,7 @@ TEST(SimulatedCameraParameters, EveryOneIsRead)
 {
   XmlRpcValue parameters;
   parameters["scene"] = "empty_table";
+  parameters["background"] = "open";
   parameters["seed"] = 7;
   parameters["noise_seed"] = 1000;
   parameters["turn_deg"] = -90;
@@ -65,6 +67,7 @@ TEST(SimulatedCameraParameters, EveryOneIsRead)
   parameters["camera"] = "xtion";
   const SimulatedCameraParameters read = simulatedCameraParameters(parameters);
   EXPECT_EQ(read.scene, "empty_table");
+  EXPECT_EQ(read.background, "open");
   EXPECT_EQ(read.seed, 7U);
   EXPECT_EQ(read.noise_seed, 1000U);
   EXPECT_EQ(read.turn_deg, -90.0);
@@ -91,6 +94,7 @@ TEST(SimulatedCameraParameters, RefusesWhatIsNotAllowed)
 {
   EXPECT_EQ(refusal("motion", "shaky"), "parameter ~motion is the string 'shaky'; it must be one of still orbit");
   for (const auto& [name, value] : {std::pair<const char*, XmlRpcValue>{"scene", 3},
+                                    {"background", "wall"},
                                     {"seed", -1},
                                     {"noise_seed", -1},
                                     {"turn_deg", 181.0},
