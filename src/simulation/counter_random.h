@@ -17,7 +17,8 @@ enum class RandomStream : std::uint64_t
   edge_loss,     ///< missing pixels at depth edges
   reflection,    ///< missing pixels where too little or too much light returns
   transparency,  ///< which surface is measured at a transparent one
-  background     ///< sizes and places of what is behind the objects
+  background,    ///< sizes and places of what is behind the objects
+  flying         ///< pixels at depth edges that are anywhere between the two surfaces
 };
 
 /// Counter-based random numbers (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011). The n-th draw

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simulation/scene.h"
+#include "simulation/sensor_model.h"
 #include "simulation/sensor_noise.h"
 
 #include <Eigen/Core>
@@ -14,8 +15,7 @@ namespace grasp_affordances
 class InfraredReturn
 {
 public:
-  /// @param baseline m, from the camera to the projector on +x
-  InfraredReturn(std::uint64_t seed, double baseline);
+  InfraredReturn(const SensorModel& model, std::uint64_t seed);
 
   /// @param point of the surface, in the optical frame; m
   /// @param normal of the surface, in either direction, of any length but zero
@@ -24,6 +24,9 @@ public:
                 std::uint32_t row) const;
 
 private:
+  double breakdown_;   ///< cosine of the angle of incidence at which the matching fails
+  double dark_reach_;  ///< m, depth at which a dark surface, seen at right angles, returns just enough light
+  double too_dull_;    ///< above, a patch of a shiny surface reflects too much light elsewhere
   Eigen::Vector3d projector_;
   PatchNoise patches_;
 };

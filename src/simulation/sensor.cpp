@@ -1,9 +1,13 @@
 #include "simulation/sensor.h"
 
 #include "simulation/disparity_image.h"
+#include "simulation/driver_filters.h"
 #include "simulation/infrared_return.h"
+#include "simulation/measured_image.h"
+#include "simulation/mixed_pixels.h"
 #include "simulation/parallel_rows.h"
 #include "simulation/projector_shadow.h"
+#include "simulation/registration.h"
 #include "simulation/sensor_noise.h"
 #include "simulation/visible_surfaces.h"
 
@@ -22,17 +26,7 @@ namespace
 constexpr float kMetresPerUnit = 0.001F;  ///< unit of a depth image
 constexpr double kDeepest = 65.0;         ///< m; the limit of 16 bits is 65.5
 constexpr int kLargestJitter = 2;         ///< px; the header states this limit
-
-Frame emptyFrame(const SensorModel& model)
-{
-  Frame frame;
-  frame.cloud.reset(model.width, model.height);
-  frame.cloud.intrinsics = model.intrinsics;
-  frame.depth.assign(frame.cloud.size(), 0);
-  frame.parts.assign(frame.cloud.size(), -1);
-  frame.surface_depth.assign(frame.cloud.size(), std::nanf(""));
-  return frame;
-}
+constexpr double kEdgeBaseline = 0.075;   ///< m, of the disparities in which a time-of-flight camera's edges are found
 
 template <typename Task>
 void forEachPixel(const SensorModel& model, Task&& task)
@@ -73,8 +67,9 @@ SurfaceImage throughGlass(VisibleSurfaces visible, const SensorModel& model, std
 class EdgeNoise
 {
 public:
-  EdgeNoise(double jitter, std::uint64_t seed)
-      : jitter_(jitter),
+  EdgeNoise(const SensorModel& model, std::uint64_t seed)
+      : jitter_(model.edge_jitter),
+        lost_above_(exceededBy(model.edge_loss)),
         along_row_(seed, RandomStream::edge_column, kPatch),
         along_column_(seed, RandomStream::edge_row, kPatch),
         loss_(seed, RandomStream::edge_loss, kPatch)
@@ -97,26 +92,48 @@ public:
 
   bool loses(const DisparityImage& disparity, Pixel p) const
   {
-    constexpr double share = 0.5;  // above this value: 31 % of the patches
-    return disparity.edgeWithin(1, p) && loss_(p.column, p.row) > share;
+    return disparity.edgeWithin(1, p) && loss_(p.column, p.row) > lost_above_;
   }
 
 private:
   static constexpr double kPatch = 3.0;  // px
 
-  double jitter_;
+  double jitter_, lost_above_;
   PatchNoise along_row_, along_column_, loss_;
 };
+
+/// The depth that is reported for a true depth, before it is rounded to millimetres.
+double measuredDepth(const SensorModel& model, double depth, double noise)
+{
+  if (model.principle == SensorPrinciple::time_of_flight) {
+    const double deviation = model.axial_constant + depth * (model.axial_linear + depth * model.axial_quadratic);
+    return depth + deviation * noise;
+  }
+  const double focal_baseline = model.intrinsics.fx * model.projector_x;
+  const double disparity = focal_baseline / depth + model.disparity_noise * noise;
+  return focal_baseline / (std::round(disparity / model.disparity_step) * model.disparity_step);
+}
 
 /// The reported depth in millimetres for a true depth; 0 if out of range.
 std::uint16_t reportedDepth(const SensorModel& model, double depth, double noise)
 {
-  const double focal_baseline = model.intrinsics.fx * model.baseline;
-  const double disparity = focal_baseline / depth + model.disparity_noise * noise;
-  const double matched = std::round(disparity / model.disparity_step) * model.disparity_step;
-  const double reported = focal_baseline / matched;
+  const double reported = measuredDepth(model, depth, noise);
   const bool in_range = reported >= model.min_depth && reported <= model.max_depth;
   return in_range ? static_cast<std::uint16_t>(std::round(reported / kMetresPerUnit)) : 0;
+}
+
+/// Where the projector's light, or the second camera's view, does not get.
+std::vector<std::uint8_t> shadowedPixels(const SensorModel& model, const DisparityImage& disparity,
+                                         const DisparityImage& occluders)
+{
+  std::vector<std::uint8_t> shadowed(std::size_t{model.width} * model.height, 0);
+  if (model.projector_x > 0.0) {
+    forEachRow(disparity.height(), [&](int row) {
+      findProjectorShadow(disparity.row(row), occluders.row(row), disparity.width(),
+                          &shadowed[disparity.index({0, row})]);
+    });
+  }
+  return shadowed;
 }
 
 /// Computes the points as depth_image_proc does from the depth images of a real sensor.
@@ -129,10 +146,20 @@ void setPoint(Cloud& cloud, std::size_t i, Pixel p, std::uint16_t depth)
             (static_cast<float>(p.row) - static_cast<float>(camera.cy)) * depth * y_per_unit, depth * kMetresPerUnit);
 }
 
+void setImage(MeasuredImage image, Frame& frame)
+{
+  frame.depth = std::move(image.depth);
+  frame.parts = std::move(image.parts);
+  frame.surface_depth = std::move(image.surface_depth);
+}
+
 Frame exactFrame(const SensorModel& model, const Scene& scene, const SurfaceImage& surfaces,
                  const DisparityImage& disparity)
 {
-  Frame frame = emptyFrame(model);
+  Frame frame;
+  frame.cloud.reset(model.width, model.height);
+  frame.cloud.intrinsics = model.intrinsics;
+  MeasuredImage image(model.width, model.height);
   forEachPixel(model, [&](Pixel p, std::size_t i) {
     const float depth = surfaces.depth[i];
     if (!(depth >= model.min_depth && depth <= model.max_depth) ||
@@ -140,19 +167,59 @@ Frame exactFrame(const SensorModel& model, const Scene& scene, const SurfaceImag
       return;
     const Eigen::Vector3f point = (static_cast<double>(depth) * disparity.ray(p)).cast<float>();
     frame.cloud.set(i, point.x(), point.y(), point.z());
-    frame.depth[i] = static_cast<std::uint16_t>(std::round(depth / kMetresPerUnit));
-    frame.parts[i] = surfaces.part[i];
-    frame.surface_depth[i] = depth;
+    image.depth[i] = static_cast<std::uint16_t>(std::round(depth / kMetresPerUnit));
+    image.parts[i] = surfaces.part[i];
+    image.surface_depth[i] = depth;
   });
+  setImage(std::move(image), frame);
+  return frame;
+}
+
+/// What the depth camera measures, before its driver filters and registers it.
+MeasuredImage measure(const SensorModel& model, const Scene& scene, const SurfaceImage& surfaces,
+                      const DisparityImage& disparity, const DisparityImage& occluders, std::uint64_t seed)
+{
+  const std::vector<std::uint8_t> shadowed = shadowedPixels(model, disparity, occluders);
+  const std::vector<float> noise =
+      windowedNoise(seed, RandomStream::disparity, model.width, model.height, model.window_width, model.window_height);
+  const EdgeNoise edges(model, seed);
+  const InfraredReturn light(model, seed);
+  MeasuredImage image(model.width, model.height);
+  forEachPixel(model, [&](Pixel p, std::size_t i) {
+    if (edges.loses(disparity, p))
+      return;
+    const Pixel source = edges.source(disparity, p);
+    const std::size_t k = disparity.index(source);
+    if (surfaces.part[k] < 0 || shadowed[k] != 0)
+      return;
+    const double depth = surfaces.depth[k];
+    if (!light.suffices(scene.parts()[surfaces.part[k]].surface, depth * disparity.ray(source),
+                        disparity.normal(source), source.column, source.row))
+      return;
+    const std::uint16_t reported = reportedDepth(model, depth, noise[i]);
+    if (reported == 0)
+      return;
+    image.depth[i] = reported;
+    image.parts[i] = surfaces.part[k];
+    image.surface_depth[i] = surfaces.depth[k];
+  });
+  return image;
+}
+
+Frame frameOf(const SensorModel& model, MeasuredImage image)
+{
+  Frame frame;
+  frame.cloud.reset(model.width, model.height);
+  frame.cloud.intrinsics = model.intrinsics;
+  forEachPixel(model, [&](Pixel p, std::size_t i) {
+    if (image.depth[i] != 0)
+      setPoint(frame.cloud, i, p, image.depth[i]);
+  });
+  setImage(std::move(image), frame);
   return frame;
 }
 
 }  // namespace
-
-double SensorModel::depthQuantum(double depth_m) const
-{
-  return depth_m * depth_m / (intrinsics.fx * baseline) * disparity_step;
-}
 
 DepthCamera::DepthCamera(const SensorModel& model) : model_(model)
 {
@@ -166,44 +233,27 @@ DepthCamera::DepthCamera(const SensorModel& model) : model_(model)
 
 Frame DepthCamera::capture(const Scene& scene, const Eigen::Isometry3d& T_scene_camera, std::uint64_t seed) const
 {
-  const auto width = static_cast<int>(model_.width);
-  const auto height = static_cast<int>(model_.height);
-  VisibleSurfaces visible = findVisibleSurfaces(scene, T_scene_camera, model_.intrinsics, model_.width, model_.height);
-  const DisparityImage occluders(visible.opaque.depth, width, height, model_.intrinsics, model_.baseline);
-  const SurfaceImage surfaces = throughGlass(std::move(visible), model_, seed);
-  const DisparityImage disparity(surfaces.depth, width, height, model_.intrinsics, model_.baseline);
-  if (model_.exact)
-    return exactFrame(model_, scene, surfaces, disparity);
+  // True depths come in the image that is delivered.
+  const SensorModel own = model_.exact ? model_ : model_.unregistered();
+  Eigen::Isometry3d T_scene_own = T_scene_camera;
+  if (model_.registered() && !model_.exact)
+    T_scene_own.translate(Eigen::Vector3d(model_.depth_camera.x, 0.0, 0.0));
 
-  std::vector<std::uint8_t> shadowed(surfaces.depth.size());
-  forEachRow(height, [&](int row) {
-    findProjectorShadow(disparity.row(row), occluders.row(row), width, &shadowed[disparity.index({0, row})]);
-  });
-  const std::vector<float> noise = windowedNoise(seed, RandomStream::disparity, model_.width, model_.height,
-                                                 model_.window_width, model_.window_height);
-  const EdgeNoise edges(model_.edge_jitter, seed);
-  const InfraredReturn light(seed, model_.baseline);
-  Frame frame = emptyFrame(model_);
-  forEachPixel(model_, [&](Pixel p, std::size_t i) {
-    if (edges.loses(disparity, p))
-      return;
-    const Pixel source = edges.source(disparity, p);
-    const std::size_t k = disparity.index(source);
-    if (surfaces.part[k] < 0 || shadowed[k] != 0)
-      return;
-    const double depth = surfaces.depth[k];
-    if (!light.suffices(scene.parts()[surfaces.part[k]].surface, depth * disparity.ray(source),
-                        disparity.normal(source), source.column, source.row))
-      return;
-    const std::uint16_t reported = reportedDepth(model_, depth, noise[i]);
-    if (reported == 0)
-      return;
-    setPoint(frame.cloud, i, p, reported);
-    frame.depth[i] = reported;
-    frame.parts[i] = surfaces.part[k];
-    frame.surface_depth[i] = surfaces.depth[k];
-  });
-  return frame;
+  const auto width = static_cast<int>(own.width);
+  const auto height = static_cast<int>(own.height);
+  const double baseline = own.projector_x > 0.0 ? own.projector_x : kEdgeBaseline;
+  VisibleSurfaces visible = findVisibleSurfaces(scene, T_scene_own, own.intrinsics, own.width, own.height);
+  const DisparityImage occluders(visible.opaque.depth, width, height, own.intrinsics, baseline);
+  const SurfaceImage surfaces = throughGlass(std::move(visible), own, seed);
+  const DisparityImage disparity(surfaces.depth, width, height, own.intrinsics, baseline);
+  if (model_.exact)
+    return exactFrame(own, scene, surfaces, disparity);
+
+  MeasuredImage image = measure(own, scene, surfaces, disparity, occluders, seed);
+  MixedPixels{own.edge_ramp, own.flying_share}.apply(disparity, seed, image);
+  fillHoles(own.fill_width, image);
+  smoothDepth(own.smoothing_radius, own.smoothing_step / kMetresPerUnit, image);
+  return frameOf(model_, model_.registered() ? registered(image, model_) : std::move(image));
 }
 
 }  // namespace grasp_affordances

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace grasp_affordances
 {
@@ -38,6 +39,19 @@ std::vector<float> windowedNoise(std::uint64_t seed, RandomStream stream, std::u
     }
   });
   return noise;
+}
+
+double exceededBy(double share)
+{
+  constexpr double kEnd = 6.5;  // no deviate is larger
+  if (!(share > 0.0 && share < 1.0))
+    return share > 0.0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  double low = -kEnd, high = kEnd;
+  while (high - low > 1e-9) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(middle / std::sqrt(2.0)) > share ? low : high) = middle;
+  }
+  return std::round(100.0 * low) / 100.0;
 }
 
 double PatchNoise::operator()(std::uint32_t column, std::uint32_t row) const

@@ -16,6 +16,10 @@ namespace grasp_affordances
 std::vector<float> windowedNoise(std::uint64_t seed, RandomStream stream, std::uint32_t width, std::uint32_t height,
                                  std::uint32_t window_width, std::uint32_t window_height);
 
+/// The value that a share of all normal deviates exceeds, rounded to a hundredth: the same on every platform. Infinite
+/// for a share of 0, or, with a minus, of 1.
+double exceededBy(double share);
+
 /// Normal noise with mean 0 and variance 1, in patches of a given size. Values are computed on request, which is fast
 /// if few pixels need them.
 class PatchNoise

@@ -7,6 +7,7 @@
 #include "simulation/placement.h"
 #include "simulation/scene_library.h"
 #include "simulation/sensor.h"
+#include "simulation/sensor_model.h"
 #include "tools/number_range.h"
 #include "tools/object_list.h"
 
@@ -86,6 +87,14 @@ bool written(const std::string& file, const std::function<void()>& write)
   }
 }
 
+std::string sensorList()
+{
+  std::string list;
+  for (const std::string& name : ga::sensorNames())
+    list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 void listScenes()
 {
   for (const ga::NamedScene& scene : ga::sceneLibrary())
@@ -102,7 +111,7 @@ bool standardOutputWritten()
 
 int simulateMain(int argc, char** argv)
 {
-  std::string scene, background = "walls", out, depth, objects;
+  std::string scene, sensor = "xtion", background = "walls", out, depth, objects;
   std::uint64_t seed = 1, noise_seed = 0;
   double turn = 0.0;
   std::optional<double> tilt, distance;
@@ -114,13 +123,15 @@ int simulateMain(int argc, char** argv)
     names.push_back(named.name);
 
   CLI::App app(
-      "Renders a scene as a virtual Asus Xtion sees it: an organized 640 x 480 cloud in the optical frame, "
-      "metres, NaN where nothing is measured, with a label per point (0: not graspable, 1..: affordance, 255: "
+      "Renders a scene as a depth camera sees it: an organized cloud in the optical frame, metres, NaN where nothing "
+      "is measured, with a label per point (0: not graspable, 1..: affordance, 255: "
       "doubtful).");
   auto* list_flag = app.add_flag("--list", list, "list the scenes and exit");
   app.add_option("--scene", scene, "name of the scene")->check(CLI::IsMember(names))->excludes(list_flag);
   app.add_option("--background", background, "what is behind the things")
       ->check(CLI::IsMember(ga::backgroundNames()))
+      ->capture_default_str();
+  app.add_option("--sensor", sensor, "name of the depth camera, or a file of one, *.yaml (known: " + sensorList() + ")")
       ->capture_default_str();
   app.add_option("--seed", seed, "of sizes, places and noise")
       ->check(CLI::Range(std::int64_t{0}, (std::int64_t{1} << 53) - 1))
@@ -160,6 +171,13 @@ int simulateMain(int argc, char** argv)
     return standardOutputWritten() ? 0 : 1;
   }
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // failures are reported by written()
+  ga::SensorModel model;
+  try {
+    model = ga::sensorModelFromNameOrFile(sensor);
+  } catch (const std::exception& error) {
+    std::cerr << "simulate: --sensor: " << error.what() << '\n';
+    return 2;
+  }
   ga::View view;
   try {
     ga::CameraPose pose{tilt, distance};
@@ -170,7 +188,6 @@ int simulateMain(int argc, char** argv)
     std::cerr << "simulate: " << scene << ", seed " << seed << ": " << error.what() << '\n';
     return 1;
   }
-  const ga::SensorModel model;
   const ga::Frame frame = ga::DepthCamera(model).capture(view.scene, view.T_scene_camera, seed + noise_seed);
   const ga::GroundTruth truth = ga::groundTruth(view, frame, model, definition);
 

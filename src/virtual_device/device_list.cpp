@@ -58,6 +58,8 @@ VirtualDeviceSettings parseDevice(const YAML::Node& node)
       device.serial = entry.second.as<std::string>();
     else if (key == "scene")
       device.scene.scene = entry.second.as<std::string>();
+    else if (key == "sensor")
+      device.scene.sensor = entry.second.as<std::string>();
     else if (key == "seed")
       device.scene.seed = wholeNumber(entry.second);
     else if (key == "noise_seed")
@@ -78,6 +80,8 @@ VirtualDeviceSettings parseDevice(const YAML::Node& node)
   if (device.scene.frames < 1 || device.scene.frames > kMostFrames)
     throw std::invalid_argument("frames must be in 1 to " + std::to_string(kMostFrames));
   checkScene(device.scene.scene);
+  if (device.scene.sensor != "xtion" && device.scene.sensor != "kinect_v1")
+    throw std::invalid_argument("sensor is '" + device.scene.sensor + "'; it must be xtion or kinect_v1");
   return device;
 }
 
@@ -86,7 +90,7 @@ VirtualDeviceSettings parseDevice(const YAML::Node& node)
 bool operator==(const VirtualScene& a, const VirtualScene& b)
 {
   const auto members = [](const VirtualScene& s) {
-    return std::tie(s.scene, s.seed, s.noise_seed, s.turn_deg, s.frames);
+    return std::tie(s.scene, s.sensor, s.seed, s.noise_seed, s.turn_deg, s.frames);
   };
   return members(a) == members(b);
 }

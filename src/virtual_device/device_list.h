@@ -24,6 +24,7 @@ enum class VirtualDeviceState
 struct VirtualScene
 {
   std::string scene = "table";   ///< a name in sceneLibrary()
+  std::string sensor = "xtion";  ///< xtion or kinect_v1: those that OpenNI2 knows
   std::uint64_t seed = 1;        ///< of the scene
   std::uint64_t noise_seed = 0;  ///< rendered frame n, from 0, has noise of the seed `seed + noise_seed + n`
   double turn_deg = 0.0;         ///< degrees, see viewFromAside()
@@ -42,8 +43,8 @@ struct VirtualDeviceSettings
   VirtualScene scene;
 };
 
-/// @throw std::invalid_argument if the text is not such a list, for an unknown key, scene or state, and for a repeated
-/// URI.
+/// @throw std::invalid_argument if the text is not such a list, for an unknown key, scene, sensor or state, and for a
+/// repeated URI.
 std::vector<VirtualDeviceSettings> parseDeviceList(const std::string& yaml);
 
 }  // namespace grasp_affordances

@@ -3,6 +3,7 @@
 #include "simulation/camera_orbit.h"
 #include "simulation/placement.h"
 #include "simulation/scene_library.h"
+#include "simulation/sensor_model.h"
 #include "virtual_device/color_image.h"
 
 #include <cmath>
@@ -32,7 +33,8 @@ std::vector<std::uint16_t> registeredDepth(const std::vector<std::uint16_t>& dep
 }
 
 RenderedFrames::RenderedFrames(const VirtualScene& scene)
-    : scene_(scene),
+    : camera_(sensorModel(scene.sensor).unregistered()),  // the device registers depth itself, when it is asked to
+      scene_(scene),
       view_(viewFromAside(makeScene(scene.scene, scene.seed), kDegree * scene.turn_deg)),
       frames_(scene.frames),
       thread_([this] { render(); })

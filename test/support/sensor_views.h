@@ -56,7 +56,7 @@ inline double shareOfPart(const Frame& frame, std::int32_t part)
 
 inline double focalBaseline(const SensorModel& model = SensorModel())
 {
-  return model.intrinsics.fx * model.baseline;
+  return model.intrinsics.fx * model.projector_x;
 }
 
 /// One of each kind, on a table before a wall.

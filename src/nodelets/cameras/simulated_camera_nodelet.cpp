@@ -9,6 +9,7 @@
 #include "simulation/placement.h"
 #include "simulation/scene_library.h"
 #include "simulation/sensor.h"
+#include "simulation/sensor_model.h"
 
 #include <geometry_msgs/TransformStamped.h>
 #include <nodelet/nodelet.h>
@@ -45,7 +46,8 @@ struct Shot
 
 }  // namespace
 
-/// Simulates an Xtion that looks at a scene. Topics and frames are those of openni2_launch for a real Xtion.
+/// Simulates a depth camera, by default an Xtion, that looks at a scene. Topics and frames are those of openni2_launch
+/// for a real Xtion.
 ///
 /// Published while one of these topics has a subscriber: depth/camera_info (sensor_msgs/CameraInfo), depth/image_raw
 /// (sensor_msgs/Image, 16UC1, mm) and depth/points (sensor_msgs/PointCloud2, organized). The three messages of a frame
@@ -82,7 +84,7 @@ private:
   std::string optical_frame_;
   View view_;
   std::optional<CameraOrbit> orbit_;  // none: the camera stands still
-  const DepthCamera camera_;
+  DepthCamera camera_;
 
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> fixed_transforms_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> transforms_;
@@ -105,6 +107,7 @@ void SimulatedCameraNodelet::onInit()
   try {
     name_claim_.claim(getName());
     parameters_ = simulatedCameraParameters(getPrivateNodeHandle());
+    camera_ = DepthCamera(sensorModelFromNameOrFile(parameters_.sensor));
     const Background background = backgroundFromName(parameters_.background);
     view_ = viewFromAside(makeScene(parameters_.scene, parameters_.seed, background), kDegree * parameters_.turn_deg);
   } catch (const std::exception& error) {

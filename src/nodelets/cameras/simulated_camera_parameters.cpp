@@ -40,6 +40,7 @@ SimulatedCameraParameters simulatedCameraParameters(ParameterReader read)
   SimulatedCameraParameters result;
   readWord(read, "scene", result.scene, sceneNames());
   readWord(read, "background", result.background, backgroundNames());
+  read("sensor", result.sensor, "the name of a sensor or of a file of one");
   const Range<std::uint64_t> seeds{0, (std::uint64_t{1} << 53) - 1};
   read("seed", result.seed, seeds, "", "");
   read("noise_seed", result.noise_seed, seeds, "", "");

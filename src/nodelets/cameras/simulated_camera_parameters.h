@@ -14,6 +14,7 @@ struct SimulatedCameraParameters
 {
   std::string scene = "table";       ///< name of a scene, see sceneLibrary()
   std::string background = "walls";  ///< what is behind the things of the scene, see Background
+  std::string sensor = "xtion";      ///< name or file of a depth camera, see sensorModelFromNameOrFile()
   std::uint64_t seed = 1;            ///< seed of the scene
   std::uint64_t noise_seed = 0;      ///< frame n, from 0, has noise of the seed `seed + noise_seed + n`
   double turn_deg = 0.0;             ///< degrees, -180 to 180, see viewFromAside()

@@ -29,7 +29,7 @@ TEST(DepthNoise, GrowsAsThatOfTheSimulatedSensor)
   const double step = model.disparity_step, noise = model.disparity_noise;
   const double disparity = std::sqrt(noise * noise + step * step / 12.0);
   for (const double depth : {0.6, 1.0, 3.0}) {
-    const double simulated = depth * depth / (model.intrinsics.fx * model.baseline) * disparity;
+    const double simulated = depth * depth / (model.intrinsics.fx * model.projector_x) * disparity;
     EXPECT_NEAR(depthNoise(depth) - depthNoise(0.0), simulated, 0.05 * simulated);
   }
 }
