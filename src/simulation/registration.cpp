@@ -25,9 +25,11 @@ MeasuredImage registered(const MeasuredImage& own, const SensorModel& model)
       if (own.depth[k] == 0)
         continue;
       const double shift = 1000.0 * to.fx * model.depth_camera.x / own.depth[k];
-      const double left = scale * (column - 0.5 - from.cx) + shift + to.cx;
-      const double first = std::max(0.0, std::ceil(left));
-      const double end = std::min(static_cast<double>(model.width), std::ceil(left + scale));
+      // Both corners rounded and both columns included, as in librealsense: no gaps, and what is near grows.
+      const double left = std::floor(scale * (column - 0.5 - from.cx) + shift + to.cx + 0.5);
+      const double right = std::floor(scale * (column + 0.5 - from.cx) + shift + to.cx + 0.5);
+      const double first = std::max(0.0, left);
+      const double end = std::min(static_cast<double>(model.width), right + 1.0);
       for (auto u = first; u < end; u += 1.0) {
         const std::size_t i = std::size_t{row} * model.width + static_cast<std::size_t>(u);
         if (result.depth[i] == 0 || own.depth[k] < result.depth[i])

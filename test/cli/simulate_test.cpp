@@ -71,6 +71,26 @@ TEST_F(SimulateTest, CloudDepthImageAndObjectListAgree)
   }
 }
 
+TEST_F(SimulateTest, SensorIsANameOrAFile)
+{
+  ASSERT_EQ(simulate("--scene empty_table --sensor kinect_v2 --out a.pcd --objects a.json"), 0) << content("stderr");
+  pcl::PointCloud<pcl::PointXYZL> cloud;
+  ASSERT_EQ(pcl::io::loadPCDFile(path("a.pcd"), cloud), 0);
+  EXPECT_EQ(cloud.width, 512U);
+  EXPECT_EQ(cloud.height, 424U);
+  EXPECT_EQ(nlohmann::json::parse(content("a.json"))["camera"]["width"], 512);
+
+  std::ofstream(path("mine.yaml")) << "range: {min: 0.1, max: 0.2}\n";
+  ASSERT_EQ(simulate("--scene empty_table --sensor mine.yaml --out b.pcd"), 0) << content("stderr");
+  EXPECT_NE(content("stdout").find(": 0 of 307200 points measured"), std::string::npos) << content("stdout");
+
+  EXPECT_EQ(simulate("--scene empty_table --sensor sonar --out b.pcd"), 2);
+  EXPECT_EQ(content("stderr").find("simulate: --sensor: there is no sensor 'sonar'"), 0U) << content("stderr");
+  std::ofstream(path("bad.yaml")) << "noise: {disparity: many}\n";
+  EXPECT_EQ(simulate("--scene empty_table --sensor bad.yaml --out b.pcd"), 2);
+  EXPECT_EQ(content("stderr"), "simulate: --sensor: bad.yaml: noise/disparity: 'many' is not a number\n");
+}
+
 TEST_F(SimulateTest, TurnedCameraSeesTheSameSceneAndItsPoseIsTheViewpoint)
 {
   ASSERT_EQ(simulate("--scene table --out a.pcd --objects a.json"), 0) << content("stderr");

@@ -35,9 +35,10 @@ TEST(SimulatedCameraParameters, DefaultsAreThoseOfTheYamlFile)
 {
   const YAML::Node file = YAML::LoadFile(GRASP_AFFORDANCES_SOURCE_DIR "/config/simulated_camera.yaml");
   const SimulatedCameraParameters defaults;
-  EXPECT_EQ(file.size(), 12U);
+  EXPECT_EQ(file.size(), 13U);
   EXPECT_EQ(file["scene"].as<std::string>(), defaults.scene);
   EXPECT_EQ(file["background"].as<std::string>(), defaults.background);
+  EXPECT_EQ(file["sensor"].as<std::string>(), defaults.sensor);
   EXPECT_EQ(file["seed"].as<std::uint64_t>(), defaults.seed);
   EXPECT_EQ(file["noise_seed"].as<std::uint64_t>(), defaults.noise_seed);
   EXPECT_EQ(file["turn_deg"].as<double>(), defaults.turn_deg);
