@@ -5,12 +5,20 @@
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
 
 namespace grasp_affordances
 {
+
+/// Where one sample of a localization ended.
+struct SampleEnd
+{
+  std::uint32_t point_index = 0;  ///< of the sampled point, as Shell::point_index
+  Outcome outcome = Outcome::too_few_points;
+};
 
 /// Localizes enveloping grasp affordances in point clouds (paper, Algorithm 1).
 ///
@@ -50,6 +58,10 @@ public:
   void localize(const std::vector<PosedCloud>& views, Localization& result,
                 const Eigen::Isometry3d& T_workspace_common = Eigen::Isometry3d::Identity(),
                 const Eigen::Isometry3d& T_approach_common = Eigen::Isometry3d::Identity());
+
+  /// Where the samples of the last localization ended, in their order. Empty before the first one; not valid after one
+  /// that was cancelled.
+  std::vector<SampleEnd> sampleEnds() const;
 
   const Config& config() const;
 

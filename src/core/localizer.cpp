@@ -96,6 +96,18 @@ Localization Localizer::localize(const Cloud& cloud)
   return result;
 }
 
+std::vector<SampleEnd> Localizer::sampleEnds() const
+{
+  const std::vector<SampleResult>& results = implementation_->loop.results();
+  const PreparedViews::MeasuredPoint* points = implementation_->loop.draw().points();
+  std::vector<SampleEnd> ends;
+  ends.reserve(results.size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    ends.push_back({implementation_->views.firstPoint(points[i].view) + points[i].point, results[i].outcome});
+  }
+  return ends;
+}
+
 void Localizer::configure(const Config& config)
 {
   validate(config);
