@@ -6,23 +6,63 @@
 #include <algorithm>
 #include <mutex>
 #include <numeric>
+#include <optional>
 
 namespace grasp_affordances
 {
 namespace
 {
 
-Judge makeJudge(const LabelledCloud& labelled, std::size_t views)
+/// Judges what is found in a frame, and tells what wrong ones are on.
+class FrameJudge
 {
-  Judge judge(labelled.cloud, labelled.labels);
-  for (std::size_t i = 0; i + 1 < views; ++i) {
-    const FurtherView& view = labelled.further_views.at(i);
-    judge.addView(view.cloud, view.labels, view.T_first_this);
+public:
+  FrameJudge(const LabelledCloud& labelled, std::size_t views)
+      : labelled_(labelled), judge_(labelled.cloud, labelled.labels)
+  {
+    for (std::size_t i = 0; i + 1 < views; ++i) {
+      const FurtherView& view = labelled.further_views.at(i);
+      judge_.addView(view.cloud, view.labels, view.T_first_this);
+    }
+    if (!labelled.objects.empty()) {
+      objects_.emplace(labelled.cloud, labelled.objects);
+    }
   }
-  return judge;
-}
 
-Localization localize(const LabelledCloud& labelled, std::size_t views, const Config& config)
+  JudgedShell operator()(const Shell& shell) const
+  {
+    const Verdict verdict = judge_(shell);
+    return {shell, verdict, objectOf(shell, verdict)};
+  }
+
+  JudgedHandle operator()(const GraspHandle& handle) const
+  {
+    const Verdict verdict = judge_(handle);
+    JudgedHandle result{handle, verdict, {}, handle.hand_poses.size(), objectOf(handle, verdict)};
+    result.handle.hand_poses = {};
+    for (const Affordance& affordance : labelled_.affordances) {
+      if (affordance.label == verdict.affordance) {
+        result.errors = handleErrors(handle, affordance);
+      }
+    }
+    return result;
+  }
+
+private:
+  template <class Found>
+  std::string objectOf(const Found& found, const Verdict& verdict) const
+  {
+    const auto object =
+        objects_ && verdict.kind == Verdict::wrong ? objects_->commonest(found) : std::optional<std::uint32_t>();
+    return object ? labelled_.object_names[*object] : std::string();
+  }
+
+  const LabelledCloud& labelled_;
+  Judge judge_;
+  std::optional<Judge> objects_;  // with objects in place of labels
+};
+
+Localization localize(const LabelledCloud& labelled, std::size_t views, Localizer& localizer)
 {
   std::vector<PosedCloud> clouds{{&labelled.cloud, Eigen::Isometry3d::Identity()}};
   for (std::size_t i = 0; i + 1 < views; ++i) {
@@ -30,36 +70,53 @@ Localization localize(const LabelledCloud& labelled, std::size_t views, const Co
     clouds.push_back({&view.cloud, view.T_first_this});
   }
   Localization result;
-  Localizer(config).localize(clouds, result);
+  localizer.localize(clouds, result);
   return result;
 }
 
-JudgedHandle judged(const GraspHandle& handle, const LabelledCloud& labelled, const Judge& judge)
+/// Label of the point of that index; the points of several views are counted one view after the other.
+std::uint32_t labelOf(const LabelledCloud& labelled, std::size_t point)
 {
-  JudgedHandle result{handle, judge(handle), {}, handle.hand_poses.size()};
-  result.handle.hand_poses = {};
-  for (const Affordance& affordance : labelled.affordances) {
-    if (affordance.label == result.verdict.affordance) {
-      result.errors = handleErrors(handle, affordance);
+  if (point < labelled.labels.size()) {
+    return labelled.labels[point];
+  }
+  point -= labelled.labels.size();
+  std::size_t view = 0;
+  for (; point >= labelled.further_views.at(view).labels.size(); ++view) {
+    point -= labelled.further_views[view].labels.size();
+  }
+  return labelled.further_views[view].labels[point];
+}
+
+std::map<std::uint32_t, OutcomeCounts> endsOnAffordances(const LabelledCloud& labelled,
+                                                         const std::vector<SampleEnd>& samples)
+{
+  std::map<std::uint32_t, OutcomeCounts> ends;
+  for (const SampleEnd& sample : samples) {
+    const std::uint32_t label = labelOf(labelled, sample.point_index);
+    if (label != kNotGraspable && label != kDoubtful) {
+      ++ends[label][static_cast<std::size_t>(sample.outcome)];
     }
   }
-  return result;
+  return ends;
 }
 
-Run evaluateRun(const LabelledCloud& labelled, const Judge& judge, const Variation& variation, std::size_t run)
+Run evaluateRun(const LabelledCloud& labelled, const FrameJudge& judge, const Variation& variation, std::size_t run)
 {
   Config config = variation.config;
   config.hand.capture_radius = labelled.capture_radius;
   config.sampling.seed = run + 1;
   config.threads = 1;
-  const Localization localization = localize(labelled, variation.views, config);
+  Localizer localizer(config);
+  const Localization localization = localize(labelled, variation.views, localizer);
   Run result;
   result.sampled = localization.sampled;
+  result.ends = endsOnAffordances(labelled, localizer.sampleEnds());
   for (const Shell& shell : localization.shells) {
-    result.shells.push_back({shell, judge(shell)});
+    result.shells.push_back(judge(shell));
   }
   for (const GraspHandle& handle : localization.handles) {
-    result.handles.push_back(judged(handle, labelled, judge));
+    result.handles.push_back(judge(handle));
   }
   return result;
 }
@@ -105,7 +162,7 @@ FrameResult evaluateFrame(const EvaluationFrame& frame, const std::vector<Variat
   result.capture_radius = labelled.capture_radius;
   countPoints(labelled, result);
   for (const Variation& variation : variations) {
-    const Judge judge = makeJudge(labelled, variation.views);
+    const FrameJudge judge(labelled, variation.views);
     result.runs.emplace_back();
     for (std::size_t run = 0; run < runs; ++run) {
       result.runs.back().push_back(evaluateRun(labelled, judge, variation, run));

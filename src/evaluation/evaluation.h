@@ -6,9 +6,11 @@
 #include "grasp_affordances/config.h"
 #include "grasp_affordances/localization.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct JudgedShell
 {
   Shell shell;
   Verdict verdict;
+  std::string object = {};  ///< of a wrong one: that most points within are of; empty where it is not known
 };
 
 struct JudgedHandle
@@ -27,6 +30,7 @@ struct JudgedHandle
   Verdict verdict;
   HandleErrors errors;  ///< of a right one
   std::size_t hand_poses = 0;
+  std::string object = {};  ///< as that of a shell
 };
 
 /// How a frame is localized in.
@@ -36,12 +40,16 @@ struct Variation
   std::size_t views = 1;  ///< the frame's first ones
 };
 
+/// Numbers of samples, indexed by Outcome.
+using OutcomeCounts = std::array<std::uint32_t, kOutcomes>;
+
 /// One call of the localizer.
 struct Run
 {
   std::vector<JudgedShell> shells;
   std::uint32_t sampled = 0;
   std::vector<JudgedHandle> handles = {};
+  std::map<std::uint32_t, OutcomeCounts> ends = {};  ///< by label of an affordance: where the samples on it ended
 };
 
 /// Whether a right shell finds the affordance of this label.

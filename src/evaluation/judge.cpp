@@ -3,6 +3,7 @@
 #include "core/result/polyline.h"
 #include "simulation/grasp_definition.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -57,6 +58,13 @@ Verdict Judge::verdict(const LabelCounts& counts)
   return {doubtful > other ? Verdict::not_counted : Verdict::wrong, 0};
 }
 
+std::optional<std::uint32_t> Judge::commonest(const LabelCounts& counts)
+{
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? std::nullopt : std::make_optional(most->first);
+}
+
 template <class IsWithin>
 Judge::LabelCounts Judge::count(const Eigen::Vector3d& sphere_center, double sphere_radius,
                                 const IsWithin& is_within) const
@@ -84,7 +92,7 @@ Judge::LabelCounts Judge::count(const Eigen::Vector3d& sphere_center, double sph
   return counts;
 }
 
-Verdict Judge::operator()(const Shell& shell) const
+Judge::LabelCounts Judge::within(const Shell& shell) const
 {
   const double radius = shell.inner_radius + kMargin;
   const auto is_within = [&](const Eigen::Vector3d& point) {
@@ -92,10 +100,10 @@ Verdict Judge::operator()(const Shell& shell) const
     const double along = offset.dot(shell.axis);
     return std::abs(along) <= shell.length / 2 && (offset - along * shell.axis).norm() <= radius;  // false for NaN
   };
-  return verdict(count(shell.centroid, std::hypot(shell.length / 2, radius), is_within));
+  return count(shell.centroid, std::hypot(shell.length / 2, radius), is_within);
 }
 
-Verdict Judge::operator()(const GraspHandle& handle) const
+Judge::LabelCounts Judge::within(const GraspHandle& handle) const
 {
   if (handle.polyline.size() < 2) {
     return {};
@@ -112,7 +120,27 @@ Verdict Judge::operator()(const GraspHandle& handle) const
   for (const Eigen::Vector3d& point : handle.polyline) {
     box.extend(point);
   }
-  return verdict(count(box.center(), box.diagonal().norm() / 2 + radius, is_within));
+  return count(box.center(), box.diagonal().norm() / 2 + radius, is_within);
+}
+
+Verdict Judge::operator()(const Shell& shell) const
+{
+  return verdict(within(shell));
+}
+
+Verdict Judge::operator()(const GraspHandle& handle) const
+{
+  return verdict(within(handle));
+}
+
+std::optional<std::uint32_t> Judge::commonest(const Shell& shell) const
+{
+  return commonest(within(shell));
+}
+
+std::optional<std::uint32_t> Judge::commonest(const GraspHandle& handle) const
+{
+  return commonest(within(handle));
 }
 
 Verdict judge(const Shell& shell, const Cloud& cloud, const std::vector<std::uint32_t>& labels)

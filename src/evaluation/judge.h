@@ -51,6 +51,10 @@ public:
   /// One whose polyline has fewer than two points holds none.
   Verdict operator()(const GraspHandle& handle) const;
 
+  /// The label that most points within have, the smallest of several; empty where no point is within.
+  std::optional<std::uint32_t> commonest(const Shell& shell) const;
+  std::optional<std::uint32_t> commonest(const GraspHandle& handle) const;
+
 private:
   struct View
   {
@@ -64,7 +68,10 @@ private:
   /// Of the points for which is_within(point in the frame of the shells) holds, all of which are in the sphere.
   template <class IsWithin>
   LabelCounts count(const Eigen::Vector3d& sphere_center, double sphere_radius, const IsWithin& is_within) const;
+  LabelCounts within(const Shell& shell) const;
+  LabelCounts within(const GraspHandle& handle) const;
   static Verdict verdict(const LabelCounts& counts);
+  static std::optional<std::uint32_t> commonest(const LabelCounts& counts);
 
   std::vector<View> views_;
 };

@@ -25,23 +25,34 @@ void transform(const Eigen::Isometry3d& T, Affordance& affordance)
   }
 }
 
-LabelledCloud render(const std::string& scene, std::uint64_t seed, const GraspDefinition& definition,
-                     const std::vector<double>& turns)
+/// Which object of the scene each point is on.
+void nameObjects(const Scene& scene, const std::vector<std::int32_t>& parts, LabelledCloud& labelled)
 {
-  const View view = makeScene(scene, seed);
+  labelled.object_names = scene.objects();
+  labelled.object_names.emplace_back();
+  labelled.objects.clear();
+  for (const std::int32_t part : parts) {
+    const std::size_t object = part < 0 ? scene.objects().size() : scene.parts()[static_cast<std::size_t>(part)].object;
+    labelled.objects.push_back(static_cast<std::uint32_t>(object));
+  }
+}
+
+LabelledCloud render(const View& view, std::uint64_t seed, const GraspDefinition& definition,
+                     const std::vector<double>& turns, const DepthCamera& camera)
+{
   std::vector<View> views;
   std::vector<Eigen::Isometry3d> cameras;
   for (const double turn : turns) {
     views.push_back(viewFromAside(view, turn));
     cameras.push_back(views.back().T_scene_camera);
   }
-  const DepthCamera camera;
   LabelledCloud labelled;
   labelled.capture_radius = definition.capture_radius;
   for (std::size_t i = 0; i < views.size(); ++i) {
     Frame frame = camera.capture(views[i].scene, cameras[i], seed + i * kNoiseOfNextView);
     GroundTruth truth = groundTruth(views[i], frame, camera.model(), definition, cameras);
     if (i == 0) {
+      nameObjects(views[i].scene, frame.parts, labelled);
       labelled.cloud = std::move(frame.cloud);
       labelled.labels = std::move(truth.labels);
       labelled.affordances = std::move(truth.affordances);
@@ -87,11 +98,12 @@ LabelledCloud united(const LabelledCloud& labelled, std::size_t views)
 }
 
 EvaluationFrame renderedFrame(const std::string& group, const std::string& scene, std::uint64_t seed,
-                              const GraspDefinition& definition, const std::vector<double>& turns)
+                              const GraspDefinition& definition, const std::vector<double>& turns,
+                              const SensorModel& sensor, Background background)
 {
-  const auto load = [scene, seed, definition, turns] {
+  const auto load = [scene, seed, definition, turns, sensor, background] {
     try {
-      return render(scene, seed, definition, turns);
+      return render(makeScene(scene, seed, background), seed, definition, turns, DepthCamera(sensor));
     } catch (const std::exception& error) {
       throw std::runtime_error(scene + ", seed " + std::to_string(seed) + ": " + error.what());
     }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "grasp_affordances/cloud.h"
+#include "simulation/background.h"
 #include "simulation/ground_truth.h"
+#include "simulation/sensor_model.h"
 
 #include <Eigen/Geometry>
 
@@ -30,6 +32,8 @@ struct LabelledCloud
   std::vector<Affordance> affordances;  ///< in the cloud's frame; what is not known of one is NaN or empty
   double capture_radius = 0.0;          ///< m, of the hand that the labels hold for
   std::vector<FurtherView> further_views;
+  std::vector<std::uint32_t> objects;     ///< per point, index into their names; empty where it is not known
+  std::vector<std::string> object_names;  ///< of the scene's; the last one is empty, of points on none
 };
 
 /// The first so many views as one, unorganized, in the frame of the first.
@@ -44,10 +48,11 @@ struct EvaluationFrame
   std::function<LabelledCloud()> load;  ///< the same each time; safe to call from several threads
 };
 
-/// A scene of the library as the virtual Xtion sees it, with its ground truth; scene and noise have the same seed.
+/// A scene of the library as a sensor sees it, with its ground truth; scene, background and noise have the same seed.
 /// Loading it throws std::runtime_error for a name that is not in the library.
 /// @param turns  rad; one view for each, see viewFromAside(), with noise of its own; at least one
 EvaluationFrame renderedFrame(const std::string& group, const std::string& scene, std::uint64_t seed,
-                              const GraspDefinition& definition, const std::vector<double>& turns = {0.0});
+                              const GraspDefinition& definition, const std::vector<double>& turns = {0.0},
+                              const SensorModel& sensor = SensorModel(), Background background = Background::walls);
 
 }  // namespace grasp_affordances

@@ -141,17 +141,27 @@ LabelledCloud load(const Recording& recording)
   return labelled;
 }
 
+/// What `read` takes from the content of a file. @throw std::runtime_error, with path and reason
+template <class Reader>
+auto readLabels(const std::string& path, const Reader& read)
+{
+  std::ifstream stream(path);
+  if (!stream) {
+    throw std::runtime_error(path + ": cannot be read");
+  }
+  try {
+    return read(Json::parse(stream));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(path + ": " + oneLine(error.what()));
+  }
+}
+
 }  // namespace
 
-std::vector<EvaluationFrame> recordedFrames(const std::string& labels_file)
+std::vector<EvaluationFrame> recordedFrames(const std::string& labels_file, const std::string& set)
 {
-  std::ifstream stream(labels_file);
-  if (!stream) {
-    throw std::runtime_error(labels_file + ": cannot be read");
-  }
-  std::vector<EvaluationFrame> frames;
-  try {
-    const Json root = Json::parse(stream);
+  return readLabels(labels_file, [&](const Json& root) {
+    std::vector<EvaluationFrame> frames;
     const std::filesystem::path folder = std::filesystem::path(labels_file).parent_path();
     const double capture_radius = captureRadius(root.at("capture_radius"));
     const Json& scenes = root.at("scenes");
@@ -160,10 +170,42 @@ std::vector<EvaluationFrame> recordedFrames(const std::string& labels_file)
     }
     for (const auto& [name, scene] : scenes.items()) {
       const Recording recording = parse((folder / fileOf(name)).string(), capture_radius, scene);
-      frames.push_back({"recorded", name, 0, [recording] { return load(recording); }});
+      frames.push_back({set.empty() ? "recorded" : set, set.empty() ? name : set + "." + name, 0,
+                        [recording] { return load(recording); }});
     }
-  } catch (const std::exception& error) {
-    throw std::runtime_error(labels_file + ": " + oneLine(error.what()));
+    return frames;
+  });
+}
+
+double recordedCaptureRadius(const std::string& labels_file)
+{
+  return readLabels(labels_file, [](const Json& root) { return captureRadius(root.at("capture_radius")); });
+}
+
+std::vector<std::string> recordedSets(const std::vector<std::string>& labels_files)
+{
+  std::vector<std::string> sets;
+  for (const std::string& file : labels_files) {
+    const std::filesystem::path path = std::filesystem::absolute(file);
+    sets.push_back(path.parent_path().filename().string() + "." + path.stem().string());
+    if (std::count(sets.begin(), sets.end(), sets.back()) > 1) {
+      throw std::runtime_error(file + ": there are two sets of labels '" + sets.back() + "'");
+    }
+  }
+  return sets;
+}
+
+std::vector<EvaluationFrame> recordedFrames(const std::vector<std::string>& labels_files)
+{
+  if (labels_files.size() == 1) {
+    return recordedFrames(labels_files.front());
+  }
+  const std::vector<std::string> sets = recordedSets(labels_files);
+  std::vector<EvaluationFrame> frames;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (EvaluationFrame& frame : recordedFrames(labels_files[i], sets[i])) {
+      frames.push_back(std::move(frame));
+    }
   }
   return frames;
 }

@@ -16,7 +16,19 @@ namespace grasp_affordances
 /// list of such labels is one affordance, numbered from 1 in the order of the lists; what is on an ignored object is
 /// doubtful, everything else not graspable. A missing PCD file is noticed when the frame is loaded.
 ///
+/// @param set  what the frames' group is named, and their scenes "SET.NAME"; empty: "recorded" and NAME
 /// @throw std::runtime_error, with path and reason, for a file that cannot be read or is not as above.
-std::vector<EvaluationFrame> recordedFrames(const std::string& labels_file);
+std::vector<EvaluationFrame> recordedFrames(const std::string& labels_file, const std::string& set = "");
+
+/// The capture radius (m) of a file of labels. @throw std::runtime_error as recordedFrames()
+double recordedCaptureRadius(const std::string& labels_file);
+
+/// Names of sets of labels, by their files: of data/labels-026.json it is "data.labels-026".
+/// @throw std::runtime_error for two of one name
+std::vector<std::string> recordedSets(const std::vector<std::string>& labels_files);
+
+/// The frames of several files. One file has no set; of several, each has its own.
+/// @throw std::runtime_error as these
+std::vector<EvaluationFrame> recordedFrames(const std::vector<std::string>& labels_files);
 
 }  // namespace grasp_affordances
