@@ -41,6 +41,31 @@ std::string identifier(const Evaluation& evaluation, const Error& error)
   }
 }
 
+std::string millimetres(double metres)
+{
+  return std::isfinite(metres) ? std::to_string(std::lround(1000.0 * metres)) + " mm" : "?";
+}
+
+std::string affordanceCaption(const Evaluation& evaluation, const Error& error)
+{
+  const FrameResult& frame = evaluation.frames[error.frame];
+  const std::size_t index = affordanceIndex(frame, error);
+  const Affordance& affordance = frame.affordances[index];
+  const std::size_t points = visiblePoints(frame, index, evaluation.variations[error.variation].views);
+  const std::string what = error.kind == Error::miss        ? "missed"
+                           : error.kind == Error::no_handle ? "shells but no handle"
+                                                            : "several handles";
+  return affordance.object + ", " + std::to_string(points) + " points, radius " + millimetres(affordance.radius) +
+         ", " + what + " in " + std::to_string(error.count) + " of " + std::to_string(evaluation.runs) + " runs";
+}
+
+}  // namespace
+
+const char* errorKindName(Error::Kind kind)
+{
+  return kKindNames[kind];  // cppcheck-suppress CastIntegerToAddressAtReturn; not an integer
+}
+
 std::string pictureName(const Evaluation& evaluation, const Error& error)
 {
   const FrameResult& frame = evaluation.frames[error.frame];
@@ -53,10 +78,24 @@ std::string pictureName(const Evaluation& evaluation, const Error& error)
          std::to_string(error.run + 1) + "-" + identifier(evaluation, error);
 }
 
-std::string millimetres(double metres)
+std::string pictureCaption(const Evaluation& evaluation, const Error& error)
 {
-  return std::isfinite(metres) ? std::to_string(std::lround(1000.0 * metres)) + " mm" : "?";
+  const Run& run = runOf(evaluation, error);
+  const std::string wrong_here = std::to_string(error.count) + " wrong here, radius ";
+  if (error.kind == Error::wrong_shell) {
+    const Shell& shell = run.shells[error.index].shell;
+    return wrong_here + millimetres(shell.inner_radius) + ", " + std::to_string(shell.points_in_gap) +
+           " points in the gap";
+  }
+  if (error.kind == Error::wrong_handle) {
+    const GraspHandle& handle = run.handles[error.index].handle;
+    return wrong_here + millimetres(handle.inner_radius) + ", " + std::to_string(handle.shells.size()) + " shells";
+  }
+  return affordanceCaption(evaluation, error);
 }
+
+namespace
+{
 
 void drawHandle(Picture& picture, const GraspHandle& handle, const Color& color)
 {
@@ -161,38 +200,18 @@ void drawAffordance(const std::string& path, const LabelledCloud& labelled, cons
   save(picture, path + ".png", caption);
 }
 
-std::string affordanceCaption(const Evaluation& evaluation, const Error& error)
-{
-  const FrameResult& frame = evaluation.frames[error.frame];
-  const std::size_t index = affordanceIndex(frame, error);
-  const Affordance& affordance = frame.affordances[index];
-  const std::size_t points = visiblePoints(frame, index, evaluation.variations[error.variation].views);
-  const std::string what = error.kind == Error::miss        ? "missed"
-                           : error.kind == Error::no_handle ? "shells but no handle"
-                                                            : "several handles";
-  return affordance.object + ", " + std::to_string(points) + " points, radius " + millimetres(affordance.radius) +
-         ", " + what + " in " + std::to_string(error.count) + " of " + std::to_string(evaluation.runs) + " runs";
-}
-
 void draw(const std::string& folder, const Evaluation& evaluation, const LabelledCloud& labelled, const Error& error)
 {
   const std::string name = pictureName(evaluation, error);
   const std::string path = folder + "/" + name;
+  const std::string caption = name + ":  " + pictureCaption(evaluation, error);
   const Run& run = runOf(evaluation, error);
-  const std::string wrong_here = name + ":  " + std::to_string(error.count) + " wrong here, radius ";
   if (error.kind == Error::wrong_shell) {
-    const Shell& shell = run.shells[error.index].shell;
-    drawWrongShell(path, labelled, shell,
-                   wrong_here + millimetres(shell.inner_radius) + ", " + std::to_string(shell.points_in_gap) +
-                       " points in the gap",
-                   name + ":  cross-section, sensor above");
+    drawWrongShell(path, labelled, run.shells[error.index].shell, caption, name + ":  cross-section, sensor above");
   } else if (error.kind == Error::wrong_handle) {
-    const GraspHandle& handle = run.handles[error.index].handle;
-    drawWrongHandle(
-        path, labelled, handle,
-        wrong_here + millimetres(handle.inner_radius) + ", " + std::to_string(handle.shells.size()) + " shells");
+    drawWrongHandle(path, labelled, run.handles[error.index].handle, caption);
   } else {
-    drawAffordance(path, labelled, run, error, name + ":  " + affordanceCaption(evaluation, error));
+    drawAffordance(path, labelled, run, error, caption);
   }
 }
 

@@ -10,6 +10,15 @@
 namespace grasp_affordances
 {
 
+/// "wrong", "miss", "wrong-handle", "no-handle" or "several-handles".
+const char* errorKindName(Error::Kind kind);
+
+/// Of an error's picture, without .png: see drawErrors().
+std::string pictureName(const Evaluation& evaluation, const Error& error);
+
+/// What is written below it: of the error and what it is on.
+std::string pictureCaption(const Evaluation& evaluation, const Error& error);
+
 /// Draws each error with the cloud around it, colored by label, as FOLDER/SCENE-SEED-PRESET-ESTIMATOR-KIND-RUN-X.png.
 /// KIND is wrong, where X is the SHELL of shells.csv and a cross-section lies beside it in ...-section.png, or
 /// wrong-handle, where X is the id of handles.csv; or miss, no-handle (with the right shells) or several-handles (with

@@ -1,7 +1,6 @@
 #include "evaluation/errors.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <string>
 #include <tuple>
@@ -74,8 +73,7 @@ std::vector<Error> wrongHandles(const Evaluation& evaluation, std::size_t frame,
 
 /// Visible affordances that are in error in some run.
 std::vector<Error> affordancesInError(Error::Kind kind, const Evaluation& evaluation, std::size_t frame,
-                                      std::size_t variation,
-                                      const std::function<bool(const Run&, std::uint32_t label)>& is_in_error)
+                                      std::size_t variation)
 {
   const FrameResult& result = evaluation.frames[frame];
   std::vector<Error> errors;
@@ -85,7 +83,7 @@ std::vector<Error> affordancesInError(Error::Kind kind, const Evaluation& evalua
     }
     Error error{kind, frame, variation, 0, 0, 0, result.affordances[i].label};
     for (std::size_t run = 0; run < result.runs[variation].size(); ++run) {
-      if (is_in_error(result.runs[variation][run], error.label)) {
+      if (isInError(result.runs[variation][run], kind, error.label)) {
         error.run = error.count == 0 ? run : error.run;
         ++error.count;
       }
@@ -102,13 +100,9 @@ std::vector<Error> errorsOf(const Evaluation& evaluation, std::size_t frame, std
   std::vector<Error> errors = wrongShells(evaluation, frame, variation);
   const auto append = [&](const std::vector<Error>& more) { errors.insert(errors.end(), more.begin(), more.end()); };
   append(wrongHandles(evaluation, frame, variation));
-  append(affordancesInError(Error::miss, evaluation, frame, variation,
-                            [](const Run& run, std::uint32_t label) { return !finds(run, label); }));
-  append(affordancesInError(Error::no_handle, evaluation, frame, variation, [](const Run& run, std::uint32_t label) {
-    return finds(run, label) && handlesOn(run, label) == 0;
-  }));
-  append(affordancesInError(Error::several_handles, evaluation, frame, variation,
-                            [](const Run& run, std::uint32_t label) { return handlesOn(run, label) > 1; }));
+  for (const Error::Kind kind : {Error::miss, Error::no_handle, Error::several_handles}) {
+    append(affordancesInError(kind, evaluation, frame, variation));
+  }
   return errors;
 }
 
@@ -118,6 +112,20 @@ bool isWrong(Error::Kind kind)
 }
 
 }  // namespace
+
+bool isInError(const Run& run, Error::Kind kind, std::uint32_t label)
+{
+  switch (kind) {
+    case Error::miss:
+      return !finds(run, label);
+    case Error::no_handle:
+      return finds(run, label) && handlesOn(run, label) == 0;
+    case Error::several_handles:
+      return handlesOn(run, label) > 1;
+    default:
+      return false;
+  }
+}
 
 std::size_t affordanceIndex(const FrameResult& frame, const Error& error)
 {

@@ -35,6 +35,9 @@ struct Error
 /// than the capture radius apart.
 std::vector<Error> worstErrors(const Evaluation& evaluation, std::size_t limit);
 
+/// Whether a run has that error of an affordance; false for the kinds that are of no affordance.
+bool isInError(const Run& run, Error::Kind kind, std::uint32_t label);
+
 /// Of the affordance in error.
 std::size_t affordanceIndex(const FrameResult& frame, const Error& error);
 

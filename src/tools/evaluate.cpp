@@ -95,7 +95,9 @@ int evaluateMain(int argc, char** argv)
     return kBadUsage;
   }
   try {
-    if (options) {
+    if (options && options->suite) {
+      evaluateSuite(*options->suite);
+    } else if (options) {
       run(*options);
     }
   } catch (const std::exception& error) {

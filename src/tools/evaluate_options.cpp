@@ -1,10 +1,13 @@
 #include "tools/evaluate_options.h"
 
+#include "evaluation/seed_list.h"
 #include "grasp_affordances/parameters.h"
+#include "simulation/background.h"
 #include "simulation/hard_scenes.h"
 #include "simulation/paper_scenes.h"
 #include "simulation/placement.h"
 #include "simulation/scene_library.h"
+#include "simulation/sensor_model.h"
 #include "tools/number_range.h"
 
 #include <CLI/CLI.hpp>
@@ -13,6 +16,7 @@
 #include <cstdint>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 namespace grasp_affordances
 {
@@ -25,7 +29,9 @@ using Strings = std::vector<std::string>;
 struct Arguments
 {
   Strings scenes, seeds{"101:120"}, estimators{"taubin", "pca", "normals"}, presets{"paper", "localizer"};
-  std::string labels, config_file, out = "evaluation";
+  Strings labels;
+  std::optional<std::string> sensor;
+  std::string suite, background = "walls", config_file, out = "evaluation";
   std::vector<int> samples;
   Strings importance;
   std::optional<double> capture_radius;
@@ -72,33 +78,15 @@ Strings sceneNames(const Strings& words)
   return names;
 }
 
-std::uint64_t parseSeed(const std::string& text)
+/// Calls read() and puts the option's name before its errors. @throw std::invalid_argument
+template <class Reader>
+auto readOption(const std::string& option, const Reader& read)
 {
-  constexpr std::size_t kMaxDigits = 15;  // less than 2^53, the largest seed of a config
-  if (text.empty() || text.size() > kMaxDigits || text.find_first_not_of("0123456789") != std::string::npos) {
-    throw std::invalid_argument("--seeds: '" + text + "' is neither a number nor a range A:B");
+  try {
+    return read();
+  } catch (const std::exception& error) {
+    throw std::invalid_argument(option + ": " + error.what());
   }
-  return std::stoull(text);
-}
-
-std::vector<std::uint64_t> parseSeeds(const Strings& words)
-{
-  constexpr std::uint64_t kMaxSeeds = 100000;
-  std::vector<std::uint64_t> seeds;
-  for (const std::string& word : words) {
-    const std::size_t colon = word.find(':');
-    const std::uint64_t first = parseSeed(word.substr(0, colon));
-    const std::uint64_t last = colon == std::string::npos ? first : parseSeed(word.substr(colon + 1));
-    if (last < first || last - first >= kMaxSeeds) {
-      throw std::invalid_argument("--seeds: '" + word + "' is no range of 1 to " + std::to_string(kMaxSeeds) +
-                                  " seeds");
-    }
-    for (std::uint64_t seed = first; seed <= last; ++seed) {
-      seeds.push_back(seed);
-    }
-  }
-  requireDistinct("--seeds", seeds);
-  return seeds;
 }
 
 bool parseSwitch(const std::string& option, const std::string& word)
@@ -156,8 +144,29 @@ std::vector<Variation> makeVariations(const Arguments& arguments)
   return variations;
 }
 
+SuiteOptions makeSuite(const Arguments& arguments)
+{
+  SuiteOptions suite;
+  suite.name = arguments.suite;
+  suite.cells = readOption("--suite", [&] { return suiteFromNameOrFile(arguments.suite); });
+  const SuiteCell first = suite.cells.front();
+  for (SuiteCell& cell : readOption(
+           "--labels", [&] { return recordedCells(arguments.labels, arguments.sensor.value_or("recorded"), first); })) {
+    suite.cells.push_back(std::move(cell));
+  }
+  suite.config_file = arguments.config_file;
+  suite.threads = arguments.threads;
+  suite.out = arguments.out;
+  return suite;
+}
+
 EvaluateOptions makeOptions(const Arguments& arguments)
 {
+  if (!arguments.suite.empty()) {
+    EvaluateOptions options;
+    options.suite = makeSuite(arguments);
+    return options;
+  }
   requireDistinct("--presets", arguments.presets);
   requireDistinct("--estimators", arguments.estimators);
   requireDistinct("--samples", arguments.samples);
@@ -179,11 +188,16 @@ EvaluateOptions makeOptions(const Arguments& arguments)
   for (const double degrees : arguments.turns) {
     turns.push_back(kDegree * degrees);
   }
+  const auto seeds = readOption("--seeds", [&] { return seedList(arguments.seeds); });
+  const auto sensor =
+      readOption("--sensor", [&] { return sensorModelFromNameOrFile(arguments.sensor.value_or("xtion")); });
+  const auto background = readOption("--background", [&] { return backgroundFromName(arguments.background); });
   for (const std::string& scene : only_recorded ? Strings{} : sceneNames(scenes)) {
     const bool is_paper =
         std::any_of(paper.begin(), paper.end(), [&](const NamedScene& named) { return named.name == scene; });
-    for (const std::uint64_t seed : parseSeeds(arguments.seeds)) {
-      options.frames.push_back(renderedFrame(is_paper ? "paper" : "", scene, seed, definition, turns));
+    for (const std::uint64_t seed : seeds) {
+      options.frames.push_back(
+          renderedFrame(is_paper ? "paper" : "", scene, seed, definition, turns, sensor, background));
     }
   }
   options.labels = arguments.labels;
@@ -213,8 +227,17 @@ void addOptions(CLI::App& app, Arguments& arguments)
       ->type_name("DEG,..")
       ->delimiter(',')
       ->check(numberRange(-180.0, 180.0));
-  app.add_option("--labels", arguments.labels, "evaluate recorded clouds, too: JSON file, with the clouds beside it")
-      ->type_name("FILE");
+  app.add_option_function<std::string>(
+         "--sensor", [&arguments](const std::string& sensor) { arguments.sensor = sensor; },
+         "that renders the scenes: a name of config/sensors or a file of such a kind (default xtion); with --suite: "
+         "that recorded the clouds of --labels")
+      ->type_name("NAME|FILE.yaml");
+  app.add_option("--background", arguments.background,
+                 "of rendered scenes: walls, open, far, room or dark (default walls)")
+      ->type_name("NAME");
+  app.add_option("--labels", arguments.labels, "evaluate recorded clouds, too: JSON files, with the clouds beside them")
+      ->type_name("FILE,..")
+      ->delimiter(',');
   app.add_option("--runs", arguments.runs, "per frame; run r samples with the seed r (default 1)")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
@@ -244,6 +267,10 @@ void addOptions(CLI::App& app, Arguments& arguments)
                  "(default 10)")
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
+  app.add_option("--suite", arguments.suite,
+                 "evaluate a grid of scenes, sensors and backgrounds in place of --scenes, and go on where an earlier "
+                 "call ended: quick, short, full or a file of a suite")
+      ->type_name("NAME|FILE.yaml");
   app.add_option("--threads", arguments.threads, "frames at a time; 0: one per core; no influence on the result")
       ->type_name("N")
       ->check(CLI::Range(0, 256));
@@ -269,6 +296,10 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, const char* const*
   Arguments arguments;
   bool version = false;
   addOptions(app, arguments);
+  for (const char* option : {"--scenes", "--seeds", "--turn", "--runs", "--presets", "--estimators", "--samples",
+                             "--importance", "--capture-radius", "--background", "--runtime", "--pictures"}) {
+    app.get_option("--suite")->excludes(app.get_option(option));  // the suite's file says what they would
+  }
   app.add_flag("--version", version, "print the version");
   try {
     app.parse(argc, argv);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "evaluation/evaluation.h"
+#include "tools/evaluate_suite.h"
 
 #include <cstddef>
 #include <optional>
@@ -14,7 +15,7 @@ namespace grasp_affordances
 struct EvaluateOptions
 {
   std::vector<EvaluationFrame> frames;   ///< rendered, not recorded
-  std::string labels;                    ///< of the recorded clouds; empty: none
+  std::vector<std::string> labels;       ///< files of the recorded clouds
   std::optional<double> capture_radius;  ///< m, where it was given: for the recorded clouds, too
   std::vector<Variation> variations;     ///< validated
   std::size_t runs = 1;
@@ -22,6 +23,7 @@ struct EvaluateOptions
   std::string out;          ///< folder
   std::size_t pictures = 0;
   bool runtime = false;
+  std::optional<SuiteOptions> suite;  ///< in place of all of that
 };
 
 /// @return empty where help or the version was asked for; it has been printed.
