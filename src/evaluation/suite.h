@@ -55,7 +55,9 @@ std::vector<SuiteCell> suiteFromYaml(const std::string& text);
 std::vector<SuiteCell> suiteFromNameOrFile(const std::string& name_or_path);
 
 /// Recorded clouds as cells, one for each file of labels: a row named after its file, for the capture radius of its
-/// hand. @param sensor that recorded them
+/// hand.
+/// @param sensor  that recorded them, in any words
+/// @param like  with their runs, presets and pictures
 /// @throw std::exception for files that cannot be read
 std::vector<SuiteCell> recordedCells(const std::vector<std::string>& labels_files, const std::string& sensor,
                                      const SuiteCell& like);

@@ -65,10 +65,10 @@ Json shellsJson(const Score& score)
           {"precision_interval", interval(score.interval)}};
 }
 
-/// Right and wrong handles by their score, in five bins.
+/// Right and wrong handles by their score, in ten bins.
 Json reliabilityJson(const std::vector<const FrameResult*>& frames, std::size_t variation)
 {
-  constexpr std::size_t kBins = 5;
+  constexpr std::size_t kBins = 10;
   struct Bin
   {
     std::size_t right = 0, wrong = 0;

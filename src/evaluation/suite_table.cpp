@@ -149,12 +149,31 @@ std::string missedTable(const Entries& entries)
   return table.str();
 }
 
+std::size_t handlesIn(const Json& bin)
+{
+  return bin.at("right").get<std::size_t>() + bin.at("wrong").get<std::size_t>();
+}
+
+/// Numbers of the bins of scores in which there is a handle.
+std::vector<std::size_t> binsIn(const Entries& entries)
+{
+  std::vector<std::size_t> bins;
+  for (std::size_t i = 0; i < entries.front().result.at("reliability").size(); ++i) {
+    if (std::any_of(entries.begin(), entries.end(),
+                    [&](const Entry& entry) { return handlesIn(entry.result.at("reliability").at(i)) > 0; })) {
+      bins.push_back(i);
+    }
+  }
+  return bins;
+}
+
 std::string reliabilityTable(const Entries& entries)
 {
+  const std::vector<std::size_t> bins = binsIn(entries);
   std::ostringstream table;
   table << "| | |";
-  const Json& bins = entries.front().result.at("reliability");
-  for (const Json& bin : bins) {
+  for (const std::size_t i : bins) {
+    const Json& bin = entries.front().result.at("reliability").at(i);
     table << " " << text("%.1f", bin.at("from").get<double>()) << " to " << text("%.1f", bin.at("to").get<double>())
           << " |";
   }
@@ -165,10 +184,11 @@ std::string reliabilityTable(const Entries& entries)
   table << "\n";
   for (const Entry& entry : entries) {
     table << "| `" << entry.row << "` | " << entry.column << " |";
-    for (const Json& bin : entry.result.at("reliability")) {
-      const auto right = bin.at("right").get<std::size_t>(), all = right + bin.at("wrong").get<std::size_t>();
-      if (all > 0) {
-        table << " " << text("%.1f", 100.0 * static_cast<double>(right) / static_cast<double>(all)) << " of " << all;
+    for (const std::size_t i : bins) {
+      const Json& bin = entry.result.at("reliability").at(i);
+      const double right = bin.at("right").get<double>();
+      if (handlesIn(bin) > 0) {
+        table << " " << text("%.1f", 100.0 * right / static_cast<double>(handlesIn(bin))) << " of " << handlesIn(bin);
       }
       table << " |";
     }

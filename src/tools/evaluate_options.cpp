@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <iostream>
 #include <stdexcept>
-#include <utility>
 
 namespace grasp_affordances
 {
@@ -149,11 +148,8 @@ SuiteOptions makeSuite(const Arguments& arguments)
   SuiteOptions suite;
   suite.name = arguments.suite;
   suite.cells = readOption("--suite", [&] { return suiteFromNameOrFile(arguments.suite); });
-  const SuiteCell first = suite.cells.front();
-  for (SuiteCell& cell : readOption(
-           "--labels", [&] { return recordedCells(arguments.labels, arguments.sensor.value_or("recorded"), first); })) {
-    suite.cells.push_back(std::move(cell));
-  }
+  suite.labels = arguments.labels;
+  suite.sensor = arguments.sensor.value_or("unknown");
   suite.config_file = arguments.config_file;
   suite.threads = arguments.threads;
   suite.out = arguments.out;

@@ -39,8 +39,12 @@ Json finished(const SuiteStore& store, const SuiteCell& cell, const SuiteOptions
 void evaluateSuite(const SuiteOptions& options)
 {
   const SuiteStore store(options.out, options.config_file);
+  std::vector<SuiteCell> asked = options.cells;
+  for (const SuiteCell& cell : recordedCells(options.labels, options.sensor, options.cells.front())) {
+    asked.push_back(cell);
+  }
   std::vector<Json> cells;
-  for (const SuiteCell& cell : options.cells) {
+  for (const SuiteCell& cell : asked) {
     const std::optional<Json> stored = store.find(cell);
     cells.push_back(stored ? *stored : finished(store, cell, options));
   }

@@ -382,6 +382,28 @@ TEST(Transformed, TurnsAShellAndKeepsItsAxisAlongTheLargestComponent)
   EXPECT_EQ(moved.length, shell.length);
 }
 
+TEST(Localizer, TellsWhereEachSampleEnded)
+{
+  Localizer localizer;
+  EXPECT_TRUE(localizer.sampleEnds().empty());
+  const Localization result = localizer.localize(captureScene("table", 1).cloud);
+  std::array<std::uint32_t, kOutcomes> counts{};
+  std::vector<std::uint32_t> shells;
+  for (const SampleEnd& sample : localizer.sampleEnds()) {
+    ++counts[static_cast<std::size_t>(sample.outcome)];
+    if (sample.outcome == Outcome::shell) {
+      shells.push_back(sample.point_index);
+    }
+  }
+  EXPECT_EQ(counts, result.counts);
+  ASSERT_EQ(shells.size(), result.shells.size());
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    EXPECT_EQ(shells[i], result.shells[i].point_index);
+  }
+  localizer.localize(Cloud());
+  EXPECT_TRUE(localizer.sampleEnds().empty()) << "of a cloud without samples";
+}
+
 TEST(Localizer, RefusesParametersOutsideTheirRange)
 {
   Config config;
