@@ -45,11 +45,12 @@ void smoothDepth(std::uint32_t radius, double step, MeasuredImage& image)
       const int middle = before[i];
       if (middle == 0)
         continue;
-      int sum = 0, count = 0;
+      int sum = middle, count = 1;  // the pixel itself, which is not visited again
       for (int v = std::max(0, row - reach); v <= std::min(height - 1, row + reach); ++v) {
         for (int u = std::max(0, column - reach); u <= std::min(width - 1, column + reach); ++u) {
           const int other = before[static_cast<std::size_t>(v) * image.width + u];
-          const bool alike = other != 0 && std::abs(other - middle) <= largest;
+          const bool itself = v == row && u == column;
+          const bool alike = other != 0 && !itself && std::abs(other - middle) <= largest;
           sum += alike ? other : 0;
           count += alike ? 1 : 0;
         }

@@ -69,7 +69,7 @@ bool between(std::uint16_t depth)
 TEST(SensorEffects, RegisteredDepthHasASecondShadow)
 {
   const SensorModel model = calm(sensorModel("kinect_v1"));
-  const double disparities = model.intrinsics.fx * (1.0 / kNear - 1.0 / kFar);
+  const double disparities = model.intrinsics.fx * (kFar - kNear) / (kNear * kFar);
   // The color camera stands between depth camera and projector. What is near grows by half a pixel on either side.
   EXPECT_NEAR(perRow(capture(plate(true), 1, model), missing), disparities * 0.05, 1.5);
   EXPECT_NEAR(perRow(capture(plate(false), 1, model), missing), disparities * 0.025, 1.5);
