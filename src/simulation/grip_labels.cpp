@@ -14,6 +14,7 @@ namespace
 {
 
 constexpr double kCellLength = 0.004;  ///< m, approximate
+constexpr double kSlim = 1.2;          ///< a section with half sizes of this ratio or more has a slim side
 
 enum class Verdict
 {
@@ -223,7 +224,8 @@ private:
       return false;
     const double middle = 0.5 * (cell.from + cell.to);
     const Eigen::Vector2d half_sizes = cell.axis->halfSizes(middle);
-    if (half_sizes.maxCoeff() - half_sizes.minCoeff() < cell.margin)
+    const double longer = half_sizes.maxCoeff(), shorter = half_sizes.minCoeff();
+    if (longer - shorter < cell.margin || longer < kSlim * shorter)
       return false;
     const Eigen::Isometry3d T_section_scene =
         (scene_.parts()[cell.part].T_scene_shape * cell.axis->sectionFrame(middle)).inverse();

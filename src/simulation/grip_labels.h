@@ -45,7 +45,7 @@ using MarginAt = std::function<double(const Eigen::Vector3d& point_scene)>;
 ///  - round cells that fit into the hand but are too flat: their radius of curvature exceeds the capture radius;
 ///  - rectangular cells that fit into the hand;
 ///  - rounded and oval cells that fit, if every camera looks at their slim side: it is within 45 degrees of the
-///    section's long axis, and the half sizes differ by the margin or more;
+///    section's long axis, and the half sizes differ by the margin or more and by a factor of 1.2 or more;
 ///  - cells of a run in the background, with any clearance, that would be a grip without the margin or with it.
 ///
 /// Of several axes of a part, the first one with a grip counts, or else the first one with doubtful cells.

@@ -1,6 +1,8 @@
 #include "simulation/scene_library.h"
 
 #include "simulation/basic_scenes.h"
+#include "simulation/door_scenes.h"
+#include "simulation/everyday_scenes.h"
 #include "simulation/hard_scenes.h"
 #include "simulation/paper_scenes.h"
 
@@ -29,7 +31,7 @@ const std::vector<NamedScene>& sceneLibrary()
 {
   static const std::vector<NamedScene> library = [] {
     std::vector<NamedScene> scenes = basicScenes();
-    for (const std::vector<NamedScene>& more : {paperScenes(), hardScenes()})
+    for (const std::vector<NamedScene>& more : {paperScenes(), hardScenes(), doorScenes(), everydayScenes()})
       scenes.insert(scenes.end(), more.begin(), more.end());
     return scenes;
   }();

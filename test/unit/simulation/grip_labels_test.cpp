@@ -338,6 +338,8 @@ TEST(GripLabels, WhatASingleViewOfTheSlimSideCannotKnowIsDoubtful)
   EXPECT_EQ(seenFrom(oval, {0.0, 10.0}), kDoubtful);
   EXPECT_EQ(seenFrom(oval, {}), 1U);
   EXPECT_EQ(seenFrom(Oval{0.02, 0.0195, 0.1}, {0.0}), 1U) << "round within the margin";
+  EXPECT_EQ(seenFrom(Oval{0.02, 0.0168, 0.1}, {0.0}), 1U) << "1.19 times as long as wide";
+  EXPECT_EQ(seenFrom(Oval{0.02, 0.0165, 0.1}, {0.0}), kDoubtful) << "1.21 times";
   EXPECT_EQ(seenFrom(RoundedBox{{0.04, 0.028, 0.1}, 0.006}, {0.0}), kDoubtful);
   EXPECT_EQ(seenFrom(RoundedBox{{0.04, 0.028, 0.1}, 0.006}, {90.0}), 1U);
   EXPECT_EQ(seenFrom(Oval{0.03, 0.012, 0.1}, {0.0}), kNotGraspable) << "it does not fit, whatever the camera knows";

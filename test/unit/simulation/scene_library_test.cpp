@@ -166,7 +166,8 @@ class ArrangedScene : public testing::TestWithParam<const char*>
 INSTANTIATE_TEST_SUITE_P(Library, ArrangedScene,
                          testing::Values("mugs", "cleaning1", "kitchen1", "cleaning2", "household1", "household2",
                                          "kitchen2", "kitchen3", "luggage", "cleaning3", "far", "clutter",
-                                         "distractors"),
+                                         "distractors", "tools1", "tools2", "supermarket1", "supermarket2", "desk1",
+                                         "desk2"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST_P(ArrangedScene, NoObjectGoesThroughAnother)
@@ -275,6 +276,87 @@ TEST(Families, DistractorsCannotBeGrasped)
     EXPECT_EQ(affordanceObjects(truth), std::multiset<std::string>()) << "seed " << seed;
     EXPECT_EQ(std::count(truth.labels.begin(), truth.labels.end(), kDoubtful), 0) << "seed " << seed;
   }
+}
+
+TEST(Families, ArePooledByName)
+{
+  EXPECT_EQ(sceneFamily("kitchen1"), "paper");
+  EXPECT_EQ(sceneFamily("clutter"), "clutter");
+  EXPECT_EQ(sceneFamily("doors2"), "doors");
+  EXPECT_THROW(sceneFamily("doors"), std::invalid_argument);
+}
+
+/// Affordances with at least 60 points in all seeds of a family's scenes, by the name of the object.
+std::map<std::string, int> visibleAffordances(const std::string& family, const GraspDefinition& definition)
+{
+  std::map<std::string, int> found;
+  for (const NamedScene& scene : sceneLibrary()) {
+    if (scene.family != family)
+      continue;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      for (const Affordance& affordance : truthOf(makeScene(scene.name, seed), seed, definition).affordances)
+        found[affordance.object] += affordance.visible_points >= 60 ? 1 : 0;
+    }
+  }
+  return found;
+}
+
+TEST(Families, DoorsHaveHandlesOfEveryKind)
+{
+  const std::map<std::string, int> found = visibleAffordances("doors", GraspDefinition());
+  for (const char* handle : {"bar handle", "bow handle", "staple handle", "knob", "lever", "appliance handle"})
+    EXPECT_GE(found.count(handle) > 0 ? found.at(handle) : 0, 5) << handle;
+  EXPECT_EQ(found.count("control knob"), 0U) << "too short";
+}
+
+TEST(Families, DoorsHaveOneAffordanceAHandleAndBarsWithoutRoomForAFinger)
+{
+  int close_bars = 0;
+  for (const char* name : {"doors1", "doors2", "doors3"}) {
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const View view = makeScene(name, seed);
+      const GroundTruth truth = truthOf(view, seed);
+      const std::multiset<std::string> placed = placedObjects(view);
+      const std::multiset<std::string> graspable = affordanceObjects(truth);
+      for (const std::string& handle : std::set<std::string>(graspable.begin(), graspable.end()))
+        EXPECT_LE(graspable.count(handle), placed.count(handle)) << handle << ", " << name << ", seed " << seed;
+      close_bars += static_cast<int>(placed.count("bar handle")) - static_cast<int>(graspable.count("bar handle"));
+    }
+  }
+  EXPECT_GE(close_bars, 5);
+}
+
+TEST(Families, ToolsAreHeldByTheirGrips)
+{
+  const std::map<std::string, int> found = visibleAffordances("tools", GraspDefinition());
+  for (const char* tool : {"drill", "pliers", "claw hammer", "screwdriver", "iron", "hair dryer", "watering can"})
+    EXPECT_GE(found.count(tool) > 0 ? found.at(tool) : 0, 6) << tool;
+}
+
+TEST(Families, GroceriesAreForLargeHands)
+{
+  GraspDefinition large;
+  large.capture_radius = 0.045;
+  const std::map<std::string, int> found = visibleAffordances("supermarket", large);
+  for (const char* product : {"tin", "drink bottle", "carton", "package", "orange", "apple", "lemon"})
+    EXPECT_GE(found.count(product) > 0 ? found.at(product) : 0, 3) << product;
+  const std::map<std::string, int> small = visibleAffordances("supermarket", GraspDefinition());
+  EXPECT_EQ(small.count("orange"), 0U);
+}
+
+TEST(Families, ADeskIsMostlyNotGraspable)
+{
+  int graspable = 0, objects = 0;
+  for (const auto& [object, count] : visibleAffordances("desk", GraspDefinition())) {
+    EXPECT_TRUE(object == "mug" || object == "pen" || object == "marker" || object == "monitor") << object;
+    graspable += count;
+  }
+  for (const char* name : {"desk1", "desk2"}) {
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+      objects += static_cast<int>(placedObjects(makeScene(name, seed)).size());
+  }
+  EXPECT_LT(graspable, objects / 4);
+  EXPECT_GT(graspable, 0);
 }
 
 TEST(Interpenetration, IsFoundWhereSolidsOverlapAndNotWhereTheyTouch)
