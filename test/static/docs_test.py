@@ -224,8 +224,8 @@ def program_faults(root, executables, all_pages):
                 program = os.path.basename(words[0]) if words else ''
                 if words[:2] == ['rosrun', PACKAGE] and len(words) > 2:
                     program = words[2]
-                if options.get(program) is None:
-                    continue
+                if options.get(program) is None or words[0] == 'scripts/' + program:
+                    continue  # a script of a program's name has options of its own
                 for option in re.findall(r'(?<!\S)--?[a-z][\w-]*', part):
                     if option not in options[program]:
                         yield '%s: %s has no option %s' % (path, program, option)
