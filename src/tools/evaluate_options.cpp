@@ -3,8 +3,6 @@
 #include "evaluation/seed_list.h"
 #include "grasp_affordances/parameters.h"
 #include "simulation/background.h"
-#include "simulation/hard_scenes.h"
-#include "simulation/paper_scenes.h"
 #include "simulation/placement.h"
 #include "simulation/scene_library.h"
 #include "simulation/sensor_model.h"
@@ -48,29 +46,23 @@ void requireDistinct(const std::string& option, std::vector<Value> values)
   }
 }
 
+/// Names of scenes for names of scenes and families; `hard` and `all` stand for several families.
 Strings sceneNames(const Strings& words)
 {
+  const Strings hard{"far", "clutter", "distractors"};
   Strings names;
-  const auto append = [&](const std::vector<NamedScene>& group) {
-    for (const NamedScene& scene : group) {
-      names.push_back(scene.name);
-    }
-  };
   for (const std::string& word : words) {
-    if (word == "paper" || word == "all") {
-      append(paperScenes());
+    const std::size_t before = names.size();
+    for (const NamedScene& scene : sceneLibrary()) {
+      const bool is_hard = std::find(hard.begin(), hard.end(), scene.family) != hard.end();
+      const bool of_several =
+          (is_hard && (word == "hard" || word == "all")) || (scene.family == "paper" && word == "all");
+      if (scene.name == word || scene.family == word || of_several) {
+        names.push_back(scene.name);
+      }
     }
-    if (word == "hard" || word == "all") {
-      append(hardScenes());
-    }
-    if (word != "paper" && word != "hard" && word != "all") {
-      names.push_back(word);
-    }
-  }
-  const auto& library = sceneLibrary();
-  for (const std::string& name : names) {
-    if (std::none_of(library.begin(), library.end(), [&](const NamedScene& scene) { return scene.name == name; })) {
-      throw std::invalid_argument("--scenes: unknown scene '" + name + "' (simulate --list names them)");
+    if (names.size() == before) {
+      throw std::invalid_argument("--scenes: unknown scene '" + word + "' (simulate --list names them)");
     }
   }
   requireDistinct("--scenes", names);
@@ -179,7 +171,6 @@ EvaluateOptions makeOptions(const Arguments& arguments)
   definition.clearance = hand.finger_thickness;
   const bool only_recorded = arguments.scenes.empty() && !arguments.labels.empty();
   const Strings scenes = arguments.scenes.empty() ? Strings{"paper"} : arguments.scenes;
-  const std::vector<NamedScene> paper = paperScenes();
   std::vector<double> turns;
   for (const double degrees : arguments.turns) {
     turns.push_back(kDegree * degrees);
@@ -189,11 +180,9 @@ EvaluateOptions makeOptions(const Arguments& arguments)
       readOption("--sensor", [&] { return sensorModelFromNameOrFile(arguments.sensor.value_or("xtion")); });
   const auto background = readOption("--background", [&] { return backgroundFromName(arguments.background); });
   for (const std::string& scene : only_recorded ? Strings{} : sceneNames(scenes)) {
-    const bool is_paper =
-        std::any_of(paper.begin(), paper.end(), [&](const NamedScene& named) { return named.name == scene; });
+    const std::string family = sceneFamily(scene) == "tests" ? "" : sceneFamily(scene);
     for (const std::uint64_t seed : seeds) {
-      options.frames.push_back(
-          renderedFrame(is_paper ? "paper" : "", scene, seed, definition, turns, sensor, background));
+      options.frames.push_back(renderedFrame(family, scene, seed, definition, turns, sensor, background));
     }
   }
   options.labels = arguments.labels;
@@ -209,8 +198,8 @@ EvaluateOptions makeOptions(const Arguments& arguments)
 void addOptions(CLI::App& app, Arguments& arguments)
 {
   app.add_option("--scenes", arguments.scenes,
-                 "of the library; paper: the paper's ten (default without --labels); hard: far, clutter, distractors; "
-                 "all: both")
+                 "of the library, or families; paper: the paper's ten (default without --labels); hard: far, clutter, "
+                 "distractors; all: both; doors, tools, supermarket, desk")
       ->type_name("NAME,..")
       ->delimiter(',');
   app.add_option("--seeds", arguments.seeds, "of scenes and noise: numbers and ranges (default 101:120)")
