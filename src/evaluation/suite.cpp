@@ -3,9 +3,9 @@
 #include "core/config/one_line.h"
 #include "evaluation/recordings.h"
 #include "evaluation/seed_list.h"
-#include "evaluation/suite_files.h"
 #include "grasp_affordances/config.h"
 #include "simulation/background.h"
+#include "simulation/embedded_file.h"
 #include "simulation/scene_library.h"
 #include "simulation/sensor_model.h"
 
@@ -170,7 +170,7 @@ std::string textOf(const std::string& path)
 std::vector<std::string> suiteNames()
 {
   Strings names;
-  for (const SuiteFile& file : suiteFiles()) {
+  for (const EmbeddedFile& file : suiteFiles()) {
     names.emplace_back(file.name);
   }
   return names;
@@ -209,7 +209,7 @@ std::vector<SuiteCell> suiteFromNameOrFile(const std::string& name_or_path)
     }
   }
   std::string names;
-  for (const SuiteFile& file : suiteFiles()) {
+  for (const EmbeddedFile& file : suiteFiles()) {
     if (name_or_path == file.name) {
       return suiteFromYaml(file.text);
     }

@@ -2,7 +2,7 @@
 
 #include "core/config/range_check.h"
 #include "core/config/yaml_values.h"
-#include "simulation/sensor_files.h"
+#include "simulation/embedded_file.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -68,7 +68,7 @@ const std::vector<std::string>& sensorNames()
 {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> result;
-    for (const SensorFile& file : sensorFiles())
+    for (const EmbeddedFile& file : sensorFiles())
       result.emplace_back(file.name);
     return result;
   }();
@@ -77,7 +77,7 @@ const std::vector<std::string>& sensorNames()
 
 SensorModel sensorModel(const std::string& name)
 {
-  for (const SensorFile& file : sensorFiles()) {
+  for (const EmbeddedFile& file : sensorFiles()) {
     if (name == file.name)
       return sensorModelFromYaml(file.text);
   }
